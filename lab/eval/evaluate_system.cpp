@@ -108,8 +108,8 @@ std::vector<Take> takes_of(const std::vector<StyledTake>& outputs) {
   return takes;
 }
 
-// Uses the neutral motion of the performers who show both styles. Empty if there are none, or if
-// the system cannot mix the two.
+// Uses the neutral motion of the performers who show both styles. Empty if no performer does, or
+// if the system cannot mix the two.
 Result<std::optional<MixReport>> evaluate_mix(const System& system, const TestSet& test_set,
                                               const std::string& first, const std::string& second) {
   MixReport mix{first, second, 0, 0, 0};

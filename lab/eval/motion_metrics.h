@@ -31,8 +31,8 @@ double mean_distance(const Take& take, const Take& from, const std::vector<float
 // in the measures CC and SC++; metres.
 double summed_distance(const Take& a, const Take& b);
 
-// Mean of it between each of `takes` and every take of `real` (given in two parts) with the same
-// style and content from another file. NaN if there is none.
+// Mean summed_distance() between each of `takes` and every take of `real` (given in two parts) that
+// has the same style and content and comes from another file. NaN if there is no such take.
 double distance_to_real(const std::vector<Take>& takes, const std::vector<Take>& real,
                         const std::vector<Take>& more_real);
 

@@ -74,7 +74,7 @@ Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, c
                                         const std::function<void(double)>& progress = {});
 
 // The motion files of a file, a folder (recursively) or a manifest (.csv: contents that occur only
-// as neutral, and only those marked test, if any are), sorted by name. Fails if there are none.
+// as neutral; only those marked test if some are), sorted by name. Fails if no file is found.
 Result<std::vector<std::string>> list_ood(const std::string& path);
 
 }  // namespace panache

@@ -5,14 +5,6 @@
 #include <cmath>
 
 namespace panache {
-namespace {
-
-// to[count] += a * from[count]
-void add_scaled(double a, const double* from, size_t count, double* to) {
-  for (size_t i = 0; i < count; ++i) to[i] += a * from[i];
-}
-
-}  // namespace
 
 Ridge::Ridge(int unknowns, int outputs)
     : unknowns_(unknowns),
@@ -29,10 +21,12 @@ void Ridge::add(std::span<const double> rows, std::span<const double> outputs, d
     const size_t last = std::min(first + kRows, count);
     for (size_t i = 0; i < unknowns_; ++i) {
       for (size_t r = first; r < last; ++r) {
-        const double a = weight * rows[r * unknowns_ + i];
+        const double* row = &rows[r * unknowns_];
+        const double* given = &outputs[r * outputs_];
+        const double a = weight * row[i];
         if (a == 0) continue;
-        add_scaled(a, &rows[r * unknowns_], i + 1, &gram_[i * unknowns_]);
-        add_scaled(a, &outputs[r * outputs_], outputs_, &target_[i * outputs_]);
+        for (size_t j = 0; j <= i; ++j) gram_[i * unknowns_ + j] += a * row[j];
+        for (size_t j = 0; j < outputs_; ++j) target_[i * outputs_ + j] += a * given[j];
       }
     }
   }

@@ -28,7 +28,7 @@ class Learnt:
               with only its mean posture, and of the neutral motion; None if clips are too short.
     verdict:  from these distances: 'good'; 'fair' if the style reduces the distance little, or less
               than its mean posture does; 'poor' if it is no better than the neutral motion; None if
-              they are None.
+              the clips are too short.
     people:   for a style learnt from one clip: the number of people whose mean motion replaces the
               neutral clip; None for pairs.
     certainty: likewise, the share of the difference in posture that counts as style, 0 to 1; the
