@@ -1,11 +1,13 @@
 #include "page_server.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <condition_variable>
 #include <cstring>
 #include <filesystem>
 #include <list>
 #include <mutex>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -20,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kAddress = "127.0.0.1";
 constexpr size_t kThreads = 8;
-constexpr int kForbidden = 403, kNotFound = 404, kMethodNotAllowed = 405;
+constexpr int kNotModified = 304, kForbidden = 403, kNotFound = 404, kMethodNotAllowed = 405;
 // The page may only run its own scripts and WebAssembly, read its own files and those that the user
 // opens, and must not be framed by other pages.
 constexpr const char* kPolicy =
@@ -56,6 +58,44 @@ int status_of(const httplib::Request& request, int port) {
     if (!origin.starts_with(scheme) || !is_own(origin.substr(scheme.size()))) return kForbidden;
   }
   return request.method == "GET" || request.method == "HEAD" ? 0 : kMethodNotAllowed;
+}
+
+// Whether a header that lists names, like "gzip, br", has this one; "gzip;q=0" is none.
+bool lists(const httplib::Request& request, const char* header, std::string_view name) {
+  const std::string text = request.get_header_value(header);
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const size_t comma = std::min(rest.find(','), rest.size());
+    std::string_view one = rest.substr(0, comma);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+    while (one.starts_with(' ')) one.remove_prefix(1);
+    while (one.ends_with(' ')) one.remove_suffix(1);
+    if (one.starts_with("W/")) one.remove_prefix(2);
+    if (one == name) return true;
+    if (one.starts_with(name) && one.substr(name.size()).starts_with(";q=")) {
+      return one.find_first_of("123456789", name.size()) != one.npos;
+    }
+  }
+  return false;
+}
+
+// Sends a file as it is stored, or tells the browser that it has this content already.
+void send_file(const PageFile& file, const httplib::Request& request, httplib::Response& answer) {
+  const bool packed = !file.packed.empty() && lists(request, "Accept-Encoding", "gzip");
+  const std::string& bytes = packed ? file.packed : file.bytes;
+  const std::string& tag = packed ? file.packed_tag : file.bytes_tag;
+  answer.set_header("ETag", tag);
+  if (!file.packed.empty()) answer.set_header("Vary", "Accept-Encoding");
+  if (lists(request, "If-None-Match", tag)) {
+    answer.status = kNotModified;
+    return;
+  }
+  if (packed) answer.set_header("Content-Encoding", "gzip");
+  // httplib compresses contents that it holds itself, at each request.
+  answer.set_content_provider(bytes.size(), file.type,
+                              [&bytes](size_t offset, size_t length, httplib::DataSink& sink) {
+                                return sink.write(bytes.data() + offset, length);
+                              });
 }
 
 // A pool of up to kThreads threads, or as many as can be started. httplib's own pool would abort if
@@ -129,7 +169,10 @@ class PageThreads final : public httplib::TaskQueue {
 Result<std::unique_ptr<PageServer>> PageServer::create() {
   Result<std::string> page = find_page();
   if (!page) return page.error();
+  Result<PageFiles> files = PageFiles::read(*page);
+  if (!files) return files.error();
   std::unique_ptr<PageServer> out(new PageServer);
+  out->files_ = *std::move(files);
   httplib::Server& server = out->server_;
   server.new_task_queue = [] { return new PageThreads; };
   // These headers give the page a finer clock, which measures the time of a step.
@@ -147,14 +190,16 @@ Result<std::unique_ptr<PageServer>> PageServer::create() {
                  "; is the loopback interface up, and may programs listen on it?"};
   }
   out->address_ = std::string(kAddress) + ":" + std::to_string(port);
-  if (!server.set_mount_point("/", *page)) {
-    return Error{*page + ": this folder of the page cannot be served"};
-  }
   server.set_pre_routing_handler(
-      [port](const httplib::Request& request, httplib::Response& answer) {
+      [port, &files = out->files_](const httplib::Request& request, httplib::Response& answer) {
         const int status = status_of(request, port);
-        if (status == 0) return httplib::Server::HandlerResponse::Unhandled;
-        answer.status = status;
+        const PageFile* file = status == 0 ? files.find(request.path) : nullptr;
+        if (status == 0 && !file) return httplib::Server::HandlerResponse::Unhandled;
+        if (file) {
+          send_file(*file, request, answer);
+        } else {
+          answer.status = status;
+        }
         return httplib::Server::HandlerResponse::Handled;
       });
   return out;

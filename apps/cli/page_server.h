@@ -9,6 +9,7 @@
 #include <httplib.h>
 
 #include "base/result.h"
+#include "page_files.h"
 
 namespace panache::cli {
 
@@ -35,6 +36,7 @@ class PageServer {
  private:
   PageServer() = default;
 
+  PageFiles files_;
   httplib::Server server_;
   std::string address_;
   std::atomic<bool> stopped_ = false;

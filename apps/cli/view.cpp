@@ -1,6 +1,7 @@
 // panache view: serves the page to this machine only.
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -55,7 +56,22 @@ void add_library(const std::string& folder, Served& model) {
 
 struct ViewVerb {
   std::string file, model, library;
+  bool no_open = false;
 };
+
+// Opens an address in the user's browser; false if there is no desktop or nothing to open it with.
+bool open_in_browser(const std::string& address) {
+#ifdef __APPLE__
+  const std::string opener = "open";
+#else
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return false;
+  const std::string opener = "xdg-open";
+#endif
+  // The browser may stay as long as it likes, and its messages are not for the user.
+  const std::string command = "command -v " + opener + " >/dev/null || exit 1; " + opener + " '" +
+                              address + "' >/dev/null 2>&1 </dev/null &";
+  return std::system(command.c_str()) == 0;
+}
 
 int view(const ViewVerb& verb) {
   Served motion, model;
@@ -74,8 +90,11 @@ int view(const ViewVerb& verb) {
   const std::unique_ptr<PageServer> server = need(PageServer::create());
   if (!motion.name.empty()) server->serve("/open/.*", [&motion] { return motion.bytes; });
   if (!model.name.empty()) server->serve("/model/.*", [&model] { return model.bytes; });
-  print("http://" + server->address() + "/" + query + "\n");
-  print_message("open this address in a browser; Ctrl-C ends");
+  const std::string address = "http://" + server->address() + "/" + query;
+  print(address + "\n");
+  const bool opened = !verb.no_open && open_in_browser(address);
+  print_message(opened ? "opened in the browser; Ctrl-C ends"
+                       : "open this address in a browser; Ctrl-C ends");
   std::fflush(stdout);
   // Ctrl-C ends the program, so this returns only on failure.
   return fail(server->listen().error(), kBadInput);
@@ -92,6 +111,7 @@ void add_view(CLI::App& app, int& exit_code) {
              "Model to style with; default: the page's own");
   add_option(*verb, "--library FOLDER", options->library,
              "Folder of style files whose styles are shown, too");
+  verb->add_flag("--no-open", options->no_open, "Only print the address, open no browser");
   verb->footer("Example:\n  panache view walk.bvh --model mine.safetensors");
   verb->callback([options, &exit_code] { exit_code = view(*options); });
 }

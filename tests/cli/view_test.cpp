@@ -39,7 +39,7 @@ class ViewVerb : public ProgramTest {
   }
 
   // Starts it; the first line that it says.
-  std::string serve(const std::string& file, const std::string& model) {
+  std::string serve(const std::string& file, const std::string& model, bool no_open = true) {
     int ends[2];
     if (::pipe(ends) != 0) return "";
     server_ = ::fork();
@@ -47,7 +47,7 @@ class ViewVerb : public ProgramTest {
       ::dup2(ends[1], STDOUT_FILENO);
       ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
       ::execl(program_.c_str(), "panache", "view", path(file).c_str(), "--model",
-              path(model).c_str(), nullptr);
+              path(model).c_str(), no_open ? "--no-open" : nullptr, nullptr);
       ::_exit(127);
     }
     ::close(ends[1]);
@@ -209,6 +209,83 @@ TEST_F(ViewVerb, rejects_other_hosts_other_origins_and_whatever_is_not_read) {
   EXPECT_EQ(twice.find("the page"), std::string::npos);
 }
 
+// The value of a header, without quotes or the end of the line.
+std::string header(const std::string& answer, const std::string& name) {
+  const size_t at = answer.find("\r\n" + name + ": ");
+  if (at == answer.npos) return "";
+  const size_t begin = at + name.size() + 4;
+  return answer.substr(begin, answer.find("\r\n", begin) - begin);
+}
+
+TEST_F(ViewVerb, sends_the_stored_gzip_and_nothing_that_the_browser_has) {
+  write("web/main.js", "let plain;");
+  write("web/main.js.gz", "as stored");
+  write("web/alone.js.gz", "without an original");
+  const int port = serve_page();
+  ASSERT_GT(port, 0);
+  const std::string host = "Host: 127.0.0.1:" + std::to_string(port) + "\r\n";
+  const auto answer = [&](const std::string& path, const std::string& headers) {
+    return ask(port,
+               "GET " + path + " HTTP/1.1\r\n" + host + headers + "Connection: close\r\n\r\n");
+  };
+  for (const std::string wanted : {"gzip, deflate, br", "br,gzip", "gzip;q=0.5"}) {
+    const std::string packed = answer("/main.js", "Accept-Encoding: " + wanted + "\r\n");
+    EXPECT_TRUE(packed.ends_with("\r\n\r\nas stored")) << packed;
+    EXPECT_EQ(header(packed, "Content-Encoding"), "gzip");
+    EXPECT_EQ(header(packed, "Vary"), "Accept-Encoding");
+    EXPECT_EQ(header(packed, "Content-Type"), "text/javascript; charset=utf-8");
+  }
+  for (const std::string wanted :
+       {"", "Accept-Encoding: br\r\n", "Accept-Encoding: gzip;q=0\r\n"}) {
+    const std::string plain = answer("/main.js", wanted);
+    EXPECT_TRUE(plain.ends_with("\r\n\r\nlet plain;")) << plain;
+    EXPECT_EQ(header(plain, "Content-Encoding"), "");
+  }
+  EXPECT_EQ(status(answer("/main.js.gz", "")), "HTTP/1.1 404");
+  EXPECT_EQ(status(answer("/alone.js", "Accept-Encoding: gzip\r\n")), "HTTP/1.1 404");
+
+  const std::string accepts = "Accept-Encoding: gzip\r\n";
+  const std::string tag = header(answer("/main.js", accepts), "ETag");
+  const std::string plain_tag = header(answer("/main.js", ""), "ETag");
+  EXPECT_EQ(tag.size(), 18u);
+  EXPECT_NE(tag, plain_tag);
+  EXPECT_NE(tag, header(answer("/", ""), "ETag"));
+  for (const std::string known : {tag, "W/" + tag, "\"other\", " + tag}) {
+    const std::string same = answer("/main.js", accepts + "If-None-Match: " + known + "\r\n");
+    EXPECT_EQ(status(same), "HTTP/1.1 304") << known;
+    EXPECT_TRUE(same.ends_with("\r\n\r\n")) << same;
+    EXPECT_EQ(header(same, "ETag"), tag);
+  }
+  for (const std::string other : {std::string("\"other\""), plain_tag}) {
+    EXPECT_EQ(status(answer("/main.js", accepts + "If-None-Match: " + other + "\r\n")),
+              "HTTP/1.1 200");
+  }
+}
+
+TEST_F(ViewVerb, opens_the_browser_of_a_desktop_unless_told_not_to) {
+  write("web/index.html", "the page");
+  write("bin/xdg-open", "#!/bin/sh\necho \"$1\" >" + path("opened") + "\n");
+  std::filesystem::permissions(path("bin/xdg-open"), std::filesystem::perms::owner_all);
+  const auto opened = [&](const char* display, bool no_open) {
+    std::filesystem::remove(path("opened"));
+    ::setenv("PATH", (path("bin") + ":/usr/bin:/bin").c_str(), 1);
+    display ? ::setenv("DISPLAY", display, 1) : ::unsetenv("DISPLAY");
+    ::unsetenv("WAYLAND_DISPLAY");
+    const std::string line = serve("walk one.bvh", "model.safetensors", no_open);
+    for (int i = 0; i < 100 && !std::filesystem::exists(path("opened")); ++i) ::usleep(10'000);
+    ::usleep(50'000);
+    ::kill(server_, SIGTERM);
+    ::waitpid(server_, nullptr, 0);
+    server_ = 0;
+    const bool there = std::filesystem::exists(path("opened"));
+    if (there) EXPECT_EQ(read("opened"), line + "\n");
+    return there;
+  };
+  EXPECT_TRUE(opened(":0", false));
+  EXPECT_FALSE(opened(":0", true));
+  EXPECT_FALSE(opened(nullptr, false));
+}
+
 TEST_F(ViewVerb, keeps_pages_of_others_from_showing_or_reading_it) {
   const int port = serve_page();
   ASSERT_GT(port, 0);
@@ -255,7 +332,7 @@ TEST_F(ViewVerb, fails_with_the_reason_where_it_cannot_listen) {
   };
   for (const auto& [call, error, begin, end] : cases) {
     const Ran ran = finish(start_where_fails(call, error, [&] {
-      return start({"view", "walk one.bvh"}, "model.safetensors", program_);
+      return start({"view", "walk one.bvh", "--no-open"}, "model.safetensors", program_);
     }));
     if (ran.exit == 77) GTEST_SKIP() << "this kernel has no filters";
     EXPECT_EQ(ran.exit, 1) << call;

@@ -223,10 +223,11 @@ class Page(threading.Thread):
         for inner, _, names in os.walk(web):
             for name in names:
                 path = os.path.join(inner, name)
-                self.files['/' + os.path.relpath(path, web)] = path
+                if not path.endswith('.gz'):  # Sent as the file without this extension.
+                    self.files['/' + os.path.relpath(path, web)] = path
         self.files['/'] = os.path.join(web, 'index.html')
         self.largest = max(map(os.path.getsize, self.files.values()))
-        self.process = subprocess.Popen([copy, 'view', os.path.join(folder, 'walk.bvh')], stdout=subprocess.PIPE,
+        self.process = subprocess.Popen([copy, 'view', '--no-open', os.path.join(folder, 'walk.bvh')], stdout=subprocess.PIPE,
                                         stderr=subprocess.DEVNULL, text=True)
         self.port = int(re.match(r'http://127\.0\.0\.1:(\d+)/', self.process.stdout.readline()).group(1))
         self.counts = dict.fromkeys(['loads', 'files', 'bytes', 'rejected', 'broken'], 0)

@@ -104,7 +104,7 @@ def view(program, limits=(), user=None):
     """Whether the page and the motion are served."""
     program.fresh()
     what = f'panache view, {limits}'
-    process = start(program, ['view', 'walk.glb'], limits, user)
+    process = start(program, ['view', '--no-open', 'walk.glb'], limits, user)
     line = first_line(process, process.stdout)
     served = 0
     if port := re.match(rb'http://127\.0\.0\.1:(\d+)/', line):
