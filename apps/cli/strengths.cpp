@@ -9,6 +9,7 @@
 #include <fast_float/fast_float.h>
 
 #include "base/csv.h"
+#include "base/lower_case.h"
 #include "base/one_of.h"
 #include "clip/text_cursor.h"
 #include "messages.h"
@@ -34,28 +35,39 @@ std::optional<float> parse_strength(std::string_view text) {
   return static_cast<float>(*value);
 }
 
+// "elderly is old here" if `text` is another word for a style; else empty.
+std::string note_of_word(const std::string& text, const Model& model) {
+  const Result<int> style = model.find_style_by_any_name(text);
+  if (!style) return "";
+  const std::string& name = model.styles()[static_cast<size_t>(*style)].name;
+  return lower_case(name) == lower_case(text) ? "" : text + " is " + name + " here";
+}
+
 // The error for a --style without a strength: "old", "old:1", "olld".
 Error without_strength(const std::string& text, const Model& model) {
   if (text.starts_with('-')) {
     return Error{"--style: expected a name and a strength after it, found " +
                  panache::quoted(text)};
   }
-  std::string name;
+  std::string name, note;
   for (const StyleInfo& style : model.styles()) {
     if (text.starts_with(style.name) && style.name.size() > name.size()) name = style.name;
   }
   if (name.empty()) {
-    if (Result<int> style = model.find_style_in_any_case(text); !style) return style.error();
-    name = text;
+    Result<int> style = model.find_style_by_any_name(text);
+    if (!style) return style.error();
+    note = note_of_word(text, model);
+    name = note.empty() ? text : model.styles()[static_cast<size_t>(*style)].name;
   }
-  return Error{"--style " + text + ": expected a name and a strength, as in '" + name + "=1'"};
+  return Error{"--style " + text + ": " + (note.empty() ? "" : note + "; ") +
+               "expected a name and a strength, as in '" + name + "=1'"};
 }
 
 // Detects the common mistakes "1=old" and "old=1,proud=1".
 Result<void> check_order(const std::string& text, const std::string& name, const std::string& value,
                          const Model& model) {
-  if (!model.find_style_in_any_case(name) && parse_number(name) &&
-      model.find_style_in_any_case(value)) {
+  if (!model.find_style_by_any_name(name) && parse_number(name) &&
+      model.find_style_by_any_name(value)) {
     return Error{"--style " + text + ": expected the name before the strength, as in '" + value +
                  "=" + name + "'"};
   }
@@ -75,8 +87,9 @@ Result<StrengthWish> parse_style(const std::string& text, const Model& model) {
   if (equals == std::string::npos) return without_strength(text, model);
   const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
   if (auto order = check_order(text, name, value, model); !order) return order.error();
-  Result<int> style = model.find_style_in_any_case(name);
+  Result<int> style = model.find_style_by_any_name(name);
   if (!style) return style.error();
+  if (const std::string note = note_of_word(name, model); !note.empty()) print_message(note);
   const size_t dots = value.find("..");
   const std::string begin = value.substr(0, dots);
   const std::string end = dots == std::string::npos ? begin : value.substr(dots + 2);
@@ -120,7 +133,7 @@ Result<StrengthColumns> read_columns(const CsvTable& table, const std::string& w
     if (std::count(names.begin(), names.end(), names[c]) > 1) {
       return Error{where + "column " + panache::quoted(names[c]) + " is there twice"};
     }
-    Result<int> style = c == out.seconds ? Result<int>(-1) : model.find_style_in_any_case(names[c]);
+    Result<int> style = c == out.seconds ? Result<int>(-1) : model.find_style_by_any_name(names[c]);
     if (!style) return Error{where + style.error().message, style.error().kind};
     out.styles.push_back(*style);
   }
@@ -133,7 +146,7 @@ Error missing_style(const std::vector<std::string>& files, const Model& model) {
   for (const std::string& file : files) {
     const size_t equals = file.find('=');
     std::error_code status;
-    if (!model.find_style_in_any_case(file.substr(0, equals)) ||
+    if (!model.find_style_by_any_name(file.substr(0, equals)) ||
         std::filesystem::exists(file, status))
       continue;
     return Error{file + ": there is no such file; a style is given as --style " + file +

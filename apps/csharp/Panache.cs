@@ -71,12 +71,11 @@ public sealed class Model : IDisposable {
     Groups = groups;
   }
   public static Model Load(string path) => new Model(System.IO.File.ReadAllBytes(path));
-  /// The index of a style; throws if the model has no style of that name.
+  /// The index of a style, by its name or another word for it; throws if the model has none.
   public int FindStyle(string name) {
     int place = Native.panache_model_find_style(Handle, Native.Utf8(name));
     if (place >= 0) return place;
-    throw new PanacheException("unknown style '" + name + "'; the model has " +
-                               (Styles.Count > 0 ? string.Join(", ", Styles) : "no styles yet"));
+    throw Native.LastError();
   }
   public void Dispose() => Handle.Dispose();
 }
@@ -427,10 +426,10 @@ internal static class Native {
   }
 
   internal static void Check(int status) {
-    if (status != 0) {
-      throw new PanacheException(Text(panache_last_error()), (ErrorKind)panache_last_error_kind());
-    }
+    if (status != 0) throw LastError();
   }
+  internal static PanacheException LastError() =>
+    new PanacheException(Text(panache_last_error()), (ErrorKind)panache_last_error_kind());
   internal static uint SizeOf<T>() => (uint)Marshal.SizeOf(typeof(T));
   internal static byte[] Utf8(string text) => Encoding.UTF8.GetBytes(text + "\0");
   internal static string Text(IntPtr utf8) {

@@ -140,8 +140,9 @@ PANACHE_API int32_t panache_model_gesture_count(const panache_model* model, int3
  * range. */
 PANACHE_API const char* panache_model_gesture_name(const panache_model* model, int32_t style,
                                                    int32_t gesture);
-/* The index of the style with this name, or -1. Case (of A to Z) matters only if two names differ
- * in nothing else. */
+/* The index of the style with this name, or else the first that other words for it ("elderly" for
+ * "old") describe; -1 if there is none, with a message in panache_last_error() that names the
+ * nearest. Case (of A to Z) matters only if two names differ in nothing else. */
 PANACHE_API int32_t panache_model_find_style(const panache_model* model, const char* name);
 
 /* ---- Skeletons ------------------------------------------------------------------------------ */

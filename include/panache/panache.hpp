@@ -93,14 +93,12 @@ class Model : public Object<panache_model, panache_model_destroy> {
   const char* gesture_name(int style, int gesture) const noexcept {
     return panache_model_gesture_name(get(), style, gesture);
   }
-  // The place of a style. Throws PANACHE_BAD_ARGUMENT where the model has none of that name.
+  // The place of a style, by its name or another word for it. Throws PANACHE_BAD_ARGUMENT where the
+  // model has none.
   int find_style(const std::string& name) const {
     const int place = panache_model_find_style(get(), name.c_str());
     if (place >= 0) return place;
-    std::string names;
-    for (int i = 0; i < style_count(); ++i) names += (i ? ", " : "") + std::string(style_name(i));
-    throw Error(PANACHE_BAD_ARGUMENT, "there is no style '" + name + "'; the model has " + names,
-                PANACHE_ERROR_UNKNOWN_STYLE);
+    throw Error(PANACHE_BAD_ARGUMENT, panache_last_error(), panache_last_error_kind());
   }
 };
 

@@ -26,11 +26,12 @@ std::vector<NetworkShape> network_shapes(const SampleSet& set, int styles) {
 
 std::map<std::string, std::string> model_metadata(const Recipe& recipe,
                                                   const std::vector<StyleName>& styles) {
-  std::string names, descriptions, groups;
+  std::string names, descriptions, groups, words;
   for (const StyleName& style : styles) {
     names += style.name + "\n";
     descriptions += style.description + "\n";
     groups += style.group + "\n";
+    words += style.words + "\n";
   }
   std::map<std::string, std::string> metadata = {
       {"format", "panache"},
@@ -44,6 +45,8 @@ std::map<std::string, std::string> model_metadata(const Recipe& recipe,
   };
   const auto has_group = [](const StyleName& style) { return !style.group.empty(); };
   if (std::ranges::any_of(styles, has_group)) metadata["style_groups"] = groups;
+  const auto has_words = [](const StyleName& style) { return !style.words.empty(); };
+  if (std::ranges::any_of(styles, has_words)) metadata["style_words"] = words;
   return metadata;
 }
 

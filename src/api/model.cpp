@@ -41,10 +41,12 @@ const char* panache_model_gesture_name(const panache_model* model, int32_t style
 }
 
 int32_t panache_model_find_style(const panache_model* model, const char* name) {
-  try {
-    const Result<int> found = model->model->find_style_in_any_case(name);
-    return found ? *found : -1;
-  } catch (...) {  // No memory for a message that nobody reads.
-    return -1;
-  }
+  int32_t index = -1;
+  guarded([&] {
+    const Result<int> found = model->model->find_style_by_any_name(name);
+    if (!found) return fail(PANACHE_BAD_ARGUMENT, found.error());
+    index = *found;
+    return PANACHE_OK;
+  });
+  return index;
 }

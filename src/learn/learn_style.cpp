@@ -109,9 +109,9 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
   }
   report.tempo = mean_tempo(pairings);
   if (report.match < kSameMotion) {
-    warn(both +
-         ": are the same motion, so that the style changes nothing; give a clip in the style as "
-         "the second one");
+    return Error{both +
+                 ": are the same motion, so there is no style to learn; give a clip in the style "
+                 "as the second one"};
   }
   if (pair.twin && !pair.twin->is_known) {
     const double trust = pair.twin->trust;

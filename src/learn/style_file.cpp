@@ -42,7 +42,8 @@ constexpr StyleText kTexts[] = {{"style", "styles", &StyleInfo::name},
                                 {"group", "style_groups", &StyleInfo::group},
                                 {"source", "style_sources", &StyleInfo::source},
                                 {"style_licence", "style_licences", &StyleInfo::licence},
-                                {"thumbnail", "style_thumbnails", &StyleInfo::thumbnail}};
+                                {"thumbnail", "style_thumbnails", &StyleInfo::thumbnail},
+                                {"words", "style_words", &StyleInfo::words}};
 
 using Tensors = std::map<std::string, Tensor>;
 
@@ -238,7 +239,7 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
   for (const auto& [key, list, entry] : kTexts) info.*entry = metadata_of(file, key);
   if (auto fit = check_style_name(info.name); !fit) return located(name, fit.error());
   for (const char* key : {"description", "origin", "group", "source", "style_licence", "thumbnail",
-                          "trunk", "data", "licence"}) {
+                          "words", "trunk", "data", "licence"}) {
     if (is_one_line(metadata_of(file, key))) continue;
     return Error{name + ": metadata '" + key + "' is not one line of UTF-8 text"};
   }

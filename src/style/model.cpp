@@ -27,6 +27,31 @@ std::vector<std::string> split_lines(std::string_view text) {
   return lines;
 }
 
+bool same_in_any_case(std::string_view one, std::string_view other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](char a, char b) { return lower_case(a) == lower_case(b); });
+}
+// Whether `word` is one of `words`, which spaces separate, ignoring the case of A to Z.
+bool has_word(std::string_view words, std::string_view word) {
+  while (!words.empty()) {
+    const size_t end = std::min(words.find(' '), words.size());
+    if (end > 0 && same_in_any_case(words.substr(0, end), word)) return true;
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return false;
+}
+
+// "54 styles: moods, ages and bodies", or without the groups if there are none.
+std::string list_groups(const std::vector<StyleInfo>& styles) {
+  std::vector<std::string> groups;
+  for (const StyleInfo& style : styles) {
+    const bool known = std::find(groups.begin(), groups.end(), style.group) != groups.end();
+    if (!known && !style.group.empty()) groups.push_back(style.group);
+  }
+  const std::string count = std::to_string(styles.size()) + " styles";
+  return groups.empty() ? count : count + ": " + one_of(groups, " and ");
+}
+
 // Whether a tensor is a style's gesture, see Model::read_gestures().
 bool is_gesture(std::string_view key) { return key.find("gesture.") != key.npos; }
 
@@ -120,7 +145,8 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
   } lists[] = {{"style_groups", &StyleInfo::group},
                {"style_sources", &StyleInfo::source},
                {"style_licences", &StyleInfo::licence},
-               {"style_thumbnails", &StyleInfo::thumbnail}};
+               {"style_thumbnails", &StyleInfo::thumbnail},
+               {"style_words", &StyleInfo::words}};
   for (const auto& [key, entry] : lists) {
     const auto found = file.metadata.find(key);
     if (found == file.metadata.end()) continue;
@@ -153,19 +179,24 @@ Result<int> Model::find_style(std::string_view style) const {
   }
   const std::vector<std::string> nearest = nearest_names(style, names);
   const std::string unknown = "unknown style '" + std::string(style) + "'; ";
-  if (nearest.empty()) return Error{unknown + "expected " + one_of(names)};
+  constexpr size_t kFew = 12;
+  if (nearest.empty() && names.size() <= kFew) return Error{unknown + "expected " + one_of(names)};
+  if (nearest.empty()) {
+    return Error{unknown + "the model has " + list_groups(styles_), ErrorKind::unknown_style};
+  }
   return Error{unknown + "the nearest " + is_or_are(nearest), ErrorKind::unknown_style};
 }
 
-Result<int> Model::find_style_in_any_case(std::string_view style) const {
+Result<int> Model::find_style_by_any_name(std::string_view style) const {
   Result<int> exact = find_style(style);
   if (exact) return exact;
-  const auto alike = [&](const StyleInfo& other) {
-    return std::equal(style.begin(), style.end(), other.name.begin(), other.name.end(),
-                      [](char a, char b) { return lower_case(a) == lower_case(b); });
-  };
-  if (std::count_if(styles_.begin(), styles_.end(), alike) != 1) return exact;
-  return static_cast<int>(std::find_if(styles_.begin(), styles_.end(), alike) - styles_.begin());
+  const auto alike = [&](const StyleInfo& other) { return same_in_any_case(style, other.name); };
+  const auto means = [&](const StyleInfo& other) { return has_word(other.words, style); };
+  const bool is_name = std::count_if(styles_.begin(), styles_.end(), alike) == 1;
+  const auto found = is_name ? std::find_if(styles_.begin(), styles_.end(), alike)
+                             : std::find_if(styles_.begin(), styles_.end(), means);
+  if (found == styles_.end()) return exact;
+  return static_cast<int>(found - styles_.begin());
 }
 
 }  // namespace panache

@@ -35,6 +35,8 @@ struct StyleInfo {
   std::string source = {};     // The source of its motion,
   std::string licence = {};    // and its licence, for users; may be empty.
   std::string thumbnail = {};  // A picture, SVG on one line; may be empty.
+  std::string words = {};      // Other words for it, separated by spaces, "elderly aged"; may be
+                               // empty.
 };
 
 class Model {
@@ -51,10 +53,12 @@ class Model {
   PoseLayout layout() const { return recipe_->layout; }
   const std::vector<StyleInfo>& styles() const { return styles_; }
   const std::map<std::string, std::string>& metadata() const { return metadata_; }
-  // The index of the style called `style`; failing that, a message with the nearest names.
+  // The index of the style called `style`; failing that, a message with the nearest names, or with
+  // the groups if none is near.
   Result<int> find_style(std::string_view style) const;
-  // The same, ignoring the case of A to Z if the match is unique.
-  Result<int> find_style_in_any_case(std::string_view style) const;
+  // The same, ignoring the case of A to Z if the match is unique; failing that, the first style
+  // that has `style` among its words.
+  Result<int> find_style_by_any_name(std::string_view style) const;
   // The gestures of a style, at most kMaxGestures; few styles have any.
   std::span<const Gesture> gestures(int style) const {
     return gestures_[static_cast<size_t>(style)];

@@ -48,7 +48,7 @@ Result<int> find_removal(const Model& remover, std::string_view style) {
   if (!is_remover(remover)) {
     return Error{"the model puts styles on; expected one that takes them off"};
   }
-  return remover.find_style_in_any_case(style.empty() ? kAnyStyle : style);
+  return remover.find_style_by_any_name(style.empty() ? kAnyStyle : style);
 }
 
 Result<Restyled> restyle_without(const Clip& clip, const Rig& rig, const Removal& removal,

@@ -122,7 +122,7 @@ TEST_F(CppHeader, failures_are_exceptions_with_the_message_of_the_library) {
   EXPECT_EQ(error_of([] { panache::MotionFile("x", 1, "x.bvh"); }).first, PANACHE_BAD_FILE);
   const auto [bad_style, style_text] = error_of([this] { model.find_style("odl"); });
   EXPECT_EQ(bad_style, PANACHE_BAD_ARGUMENT);
-  EXPECT_EQ(style_text.substr(0, 34), "there is no style 'odl'; the model");
+  EXPECT_EQ(style_text, "unknown style 'odl'; the nearest is old");
   panache::Character character(model, skeleton);
   EXPECT_EQ(error_of([&] { character.restore({1, 2, 3}); }).first, PANACHE_BAD_STATE);
   panache_shape shape = PANACHE_SHAPE;

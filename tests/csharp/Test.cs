@@ -197,7 +197,7 @@ static class Test {
   static void ErrorsAreTheLibrarysSentences(Model model, string walk) {
     Expect(model.Styles.Contains("old"), "a style");
     ExpectRejection("model: has 3 bytes; expected a safetensors file", () => new Model(new byte[] { 1, 2, 3 }));
-    ExpectRejection("unknown style 'odl'; the model has angry, ", () => model.FindStyle("odl"));
+    ExpectRejection("unknown style 'odl'; the nearest is old", () => model.FindStyle("odl"));
     string broken = walk + ".broken.bvh";
     File.WriteAllText(broken, File.ReadAllText(walk).Substring(0, 300));
     ExpectRejection(broken + ":", () => Clip.Load(broken));

@@ -285,7 +285,7 @@ TEST_F(Godot, what_is_wrong_is_told_once) {
     host.process(node);
   }
   ASSERT_EQ(host.errors.size(), 3u);
-  EXPECT_EQ(host.errors[2], "Panache: the model has no style 'odl'");
+  EXPECT_EQ(host.errors[2], "Panache: unknown style 'odl'; the nearest is old");
 
   // A skeleton that is no humanoid any more, and one that is again.
   const std::vector<Bone> whole = host.bones;

@@ -104,6 +104,19 @@ TEST_F(ManifestTest, styles_are_listed_in_groups_where_the_table_names_them) {
   EXPECT_EQ((*plain)[0].group, "");
 }
 
+TEST_F(ManifestTest, a_table_may_list_other_words_for_a_style) {
+  const auto styles =
+      read_style_names(put("name,from,description,words\nold,old,bent,elderly aged\nsad,sad,,\n"));
+  ASSERT_TRUE(styles.ok()) << styles.error().message;
+  EXPECT_EQ((*styles)[0].words, "elderly aged");
+  EXPECT_EQ((*styles)[1].words, "");
+  EXPECT_EQ(
+      read_style_names(put("name,from,description,words\nold,old,,\"a\nb\"\n")).error().message,
+      path_ +
+          ":2: column words is not one line of UTF-8 text; expected no line breaks and no tabs in "
+          "it");
+}
+
 // A model keeps a line for each style, so a second one would be that of the next style.
 TEST_F(ManifestTest, descriptions_and_groups_of_several_lines_are_rejected) {
   const std::string header = "name,from,description,group\n";

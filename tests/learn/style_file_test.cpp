@@ -237,6 +237,15 @@ TEST(StyleFile, styles_keep_their_groups_wherever_they_go) {
   EXPECT_EQ(groups_of(added(removed(mixed_model(), "proud"), proud)), "|moods|||");
 }
 
+TEST(StyleFile, styles_keep_their_other_words_wherever_they_go) {
+  TensorFile model = mixed_model();
+  model.metadata["style_words"] = "elderly\nvain cocky\n\n\n";
+  const TensorFile proud = extract(model, "proud");
+  EXPECT_EQ(read_style_info(proud, "proud")->words, "vain cocky");
+  EXPECT_EQ(*read(added(removed(model, "proud"), proud))->find_style_by_any_name("cocky"), 1);
+  EXPECT_EQ(removed(model, "proud").metadata.at("style_words"), "elderly\n\n\n");
+}
+
 TEST(StyleFile, a_group_of_several_lines_is_rejected) {
   TensorFile style = extract(mixed_model(), "proud");
   style.metadata["group"] = "moods\nages";

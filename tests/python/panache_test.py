@@ -328,7 +328,7 @@ def test_errors_are_the_librarys_sentences(model, walk, walk_file, shipped, tmp_
     assert 'safetensors' in rejection(panache.Model, b'nothing')
     assert rejection(panache.Model, 'no-such').startswith('no-such: cannot be read')
     assert rejection(panache.stylize, model, walk, {'odl': 1}).startswith(
-        "unknown style 'odl'; the model has angry, ")
+        "unknown style 'odl'; the nearest is old")
     bad = np.array(walk.rotations)
     bad[3, 1] = np.nan
     assert rejection(panache.stylize, model, panache.Clip(

@@ -227,5 +227,44 @@ TEST(Model, an_unknown_style_gets_the_nearest_names) {
             "unknown style 'drunk'; expected angry, old, proud or sad");
 }
 
+TEST(Model, an_unknown_style_among_many_gets_the_groups) {
+  std::vector<std::string> names;
+  std::string groups;
+  for (int i = 0; i < 13; ++i) {
+    names.push_back("style " + std::to_string(i));
+    groups += i == 12 ? "\n" : i % 2 == 0 ? "moods\n" : "ages\n";
+  }
+  TensorFile file = test::make_model(names);
+  const auto message = [&] {
+    return (*Model::parse(format_safetensors(file), "m.safetensors"))
+        ->find_style("qwerty")
+        .error()
+        .message;
+  };
+  EXPECT_EQ(message(), "unknown style 'qwerty'; the model has 13 styles");
+  file.metadata["style_groups"] = groups;
+  EXPECT_EQ(message(), "unknown style 'qwerty'; the model has 13 styles: moods and ages");
+}
+
+TEST(Model, other_words_for_a_style_find_it_after_all_names) {
+  TensorFile file = test::make_model({"old", "sad", "Sad", "moping"});
+  file.metadata["style_words"] = "elderly aged sad\n\ntired\nunhappy tired\n";
+  const auto model = *Model::parse(format_safetensors(file), "m.safetensors");
+  EXPECT_EQ(*model->find_style_by_any_name("elderly"), 0);
+  EXPECT_EQ(*model->find_style_by_any_name("Aged"), 0);
+  EXPECT_EQ(*model->find_style_by_any_name("tired"), 2);
+  EXPECT_EQ(*model->find_style_by_any_name("sad"), 1);
+  EXPECT_EQ(*model->find_style_by_any_name("MOPING"), 3);
+  // Two names that differ in case alone mean neither.
+  EXPECT_EQ(*model->find_style_by_any_name("SAD"), 0);
+  for (const char* part : {"elder", "elderly aged", "", "unhapp"}) {
+    EXPECT_FALSE(model->find_style_by_any_name(part)) << part;
+  }
+  EXPECT_FALSE(model->find_style("elderly"));
+  file.metadata["style_words"] = "elderly\n";
+  EXPECT_EQ(rejection(file),
+            "m.safetensors: metadata 'style_words' has 1 lines; expected 4, one per style");
+}
+
 }  // namespace
 }  // namespace panache

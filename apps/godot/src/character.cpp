@@ -116,7 +116,7 @@ void Character::make_character(const Value& skeleton) {
 
 void Character::apply(const std::string& style) const {
   const int32_t place = panache_model_find_style(model_.get(), style.c_str());
-  if (place < 0) tell("the model has no style '" + style + "'");
+  if (place < 0) tell(panache_last_error());
   panache_character_set_strength(character_.get(), place, static_cast<float>(strengths_.at(style)));
 }
 

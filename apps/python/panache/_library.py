@@ -74,7 +74,12 @@ def whole(value, what: str) -> int:
 def check(status: int) -> None:
     """Raises the library's last error if `status` is not 0."""
     if status != 0:
-        raise PanacheError(lib.last_error().decode(), ERROR_KINDS[lib.last_error_kind()])
+        raise last_error()
+
+
+def last_error() -> PanacheError:
+    """The library's last error."""
+    return PanacheError(lib.last_error().decode(), ERROR_KINDS[lib.last_error_kind()])
 
 
 class Handle:

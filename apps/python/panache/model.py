@@ -8,7 +8,7 @@ from typing import Dict, List, Optional, Union
 import numpy as np
 
 from ._files import write
-from ._library import HERE, Handle, PanacheError, lib, take_bytes, utf8
+from ._library import HERE, Handle, PanacheError, last_error, lib, take_bytes, utf8
 
 _MODELS = HERE / 'models'
 NEUTRAL_BANK = _MODELS / 'neutral.safetensors'  # For learn() from a single clip.
@@ -67,11 +67,11 @@ class Model:
         return f'<panache.Model of {len(self.styles)} styles>'
 
     def find_style(self, name: str) -> int:
-        """The index of a style. Raises PanacheError if there is no style of that name."""
+        """The index of a style, by its name or another word for it. Raises PanacheError if there is
+        none."""
         place = lib.model_find_style(self._handle.pointer, utf8(name, 'style'))
         if place < 0:
-            raise PanacheError(f'unknown style {name!r}; the model has '
-                               f'{", ".join(self.styles) or "no styles yet"}')
+            raise last_error()
         return place
 
     def _header(self) -> dict:

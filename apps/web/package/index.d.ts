@@ -24,6 +24,8 @@ export interface Style {
   description: string;
   /** The group of the style, "moods"; "" for learnt styles, and in models without groups. */
   group: string;
+  /** Other words for it in lower case, as people search for it: "elderly"; may be empty. */
+  words: readonly string[];
   /** Whether learnStyle() made it. */
   learnt: boolean;
   /** A row of poses from the styled clip, SVG; "" for styles that were not learnt. */
@@ -221,6 +223,20 @@ export class Skeleton {
   free(): void;
 }
 
+/** Prepares tracked poses for a character: step(filtered, ...). */
+export class PoseFilter {
+  /** `joints`: those of the skeleton, whose rest pose is symmetric about x = 0. `mirror` exchanges
+   * left and right, as a mirror does; joints that are not human, such as fingers, go by "left" and
+   * "right" in their names. `smooth`: cuts jitter, delaying any movement by at most this long;
+   * seconds, 0 to 1. */
+  constructor(skeleton: Skeleton, joints: readonly Joint[],
+    options?: { mirror?: boolean; smooth?: number });
+  /** Changes a pose in place, `seconds` after the last one. */
+  apply(pose: Pose, seconds: number): void;
+  /** The next pose is not smoothed with those before. */
+  reset(): void;
+}
+
 /** One of your characters in motion. */
 export class Character {
   private constructor();
@@ -246,10 +262,11 @@ export class Character {
 
 export class Panache {
   /** `wasm`: panache.wasm; `model`: a .safetensors of panache-lab train; `walker`:
-   * walker.safetensors, for createWalker(). Rejects with a PanacheError if a model is invalid. */
+   * walker.safetensors, for createWalker(). Rejects with a PanacheError if a model is invalid.
+   * Without a model only the walker walks, neutral, until setModel(). */
   static create(files: {
     wasm: BufferSource | WebAssembly.Module;
-    model: ArrayBuffer | Uint8Array;
+    model?: ArrayBuffer | Uint8Array;
     walker?: ArrayBuffer | Uint8Array;
   }): Promise<Panache>;
   readonly styles: readonly Style[];

@@ -6,6 +6,7 @@ import {
   PanacheError, checkBytes, checkFinite, checkInteger, checkKeys, checkTriggered, handleFor, inUse,
   lastError, timingNumber,
 } from './checks.js';
+import { PoseFilter } from './filter.js';
 import { Arena } from './memory.js';
 import { Remover, removedIndex, removerHandle } from './remover.js';
 
@@ -20,7 +21,7 @@ export const humanJoints = [
   'rightUpperLeg', 'rightLowerLeg', 'rightFoot', 'rightToes',
 ];
 
-export { Character, PanacheError, Remover, Skeleton };
+export { Character, PanacheError, PoseFilter, Remover, Skeleton };
 
 // The module imports a file system but never uses it: imports that are not provided fail.
 function importsOf(module, given) {
@@ -34,7 +35,8 @@ function importsOf(module, given) {
 
 export class Panache {
   #wasm;
-  #model = 0;
+  #model = 0;     // 0 until there is one.
+  #live = true;   // Until free().
   #bytes;         // The model file.
   #walker = 0;
   #players = new Set();
@@ -53,7 +55,8 @@ export class Panache {
 
   constructor(wasm, model, walker) {
     this.#wasm = wasm;
-    this.#useModel(model, 'the model');
+    this.styles = [];
+    if (model) this.#useModel(model, 'the model');
     if (walker) {
       checkBytes(walker, 'the walker');
       this.#walker = this._arena((arena) => this._checked(
@@ -62,10 +65,10 @@ export class Panache {
   }
 
   setModel(bytes, name = 'the model') {
-    this._model();
     this.#useModel(bytes, name);
   }
   #useModel(bytes, name) {
+    inUse(this.#live, 'Panache');
     checkBytes(bytes, name);
     const wasm = this.#wasm;
     const model = this._arena((arena) => this._checked(wasm.panache_page_model_create(
@@ -86,6 +89,7 @@ export class Panache {
       this.#wasm.panache_page_is_style(arena.copy(bytes), bytes.byteLength) !== 0);
   }
   addStyle(bytes, { name = 'the style', replace = false } = {}) {
+    this._model();
     checkBytes(bytes, name);
     this.setModel(this._arena((arena) => this._take(this._checked(
       this.#wasm.panache_page_style_add(arena.copy(this.#bytes), this.#bytes.byteLength,
@@ -100,11 +104,13 @@ export class Panache {
       this.#wasm.panache_styles_remove(bytes, size, name, out)));
   }
   #withStyle(style, change) {
+    this._model();
     return this._arena((arena) => this._take(arena.create((out) => change(
       arena.copy(this.#bytes), this.#bytes.byteLength, arena.text(style), out))));
   }
 
   learnStyle(style, styled, neutral) {
+    this._model();
     const bank = ArrayBuffer.isView(neutral) || neutral instanceof ArrayBuffer ? neutral : null;
     return this._arena((arena) => {
       const out = arena.zeros(4);
@@ -138,9 +144,9 @@ export class Panache {
   }
 
   createWalker() {
-    const model = this._model();
+    inUse(this.#live, 'Panache');
     if (!this.#walker) throw new PanacheError('no walker was given to Panache.create');
-    const player = this.#wasm.panache_page_player_walk(model, this.#walker);
+    const player = this.#wasm.panache_page_player_walk(this.#model, this.#walker);
     return new Walk(this, this._checked(player), '');
   }
 
@@ -157,24 +163,32 @@ export class Panache {
     this.#wasm.panache_model_destroy(this.#model);
     this.#wasm.panache_page_walker_free(this.#walker);
     this.#model = this.#walker = 0;
+    this.#live = false;
   }
 
   // For the other classes.
   get _wasm() { return this.#wasm; }
-  _model() { return inUse(this.#model, 'Panache'); }
+  _model() {
+    inUse(this.#live, 'Panache');
+    if (this.#model) return this.#model;
+    throw new PanacheError('expected a model: give one to Panache.create, or call setModel()');
+  }
   _players() { return this.#players; }
   _stylesOf(model) { return this._json(this.#wasm.panache_page_styles(model)); }
   _styleIndex(name, styles = this.styles) {
-    let index = styles.findIndex((style) => style.name === name);
-    if (index < 0) {  // Like the program: an exact match first, then without case.
-      const wanted = String(name).toLowerCase();
-      index = styles.findIndex((style) => style.name.toLowerCase() === wanted);
+    // Like the program: an exact match first, then without case, then other words for a style.
+    const wanted = String(name).toLowerCase();
+    for (const fits of [
+      (style) => style.name === name,
+      (style) => style.name.toLowerCase() === wanted,
+      (style) => style.words.includes(wanted),
+    ]) {
+      const index = styles.findIndex(fits);
+      if (index >= 0) return index;
     }
-    if (index < 0) {
-      throw new PanacheError(`there is no style '${name}'; the model has ` +
-        styles.map((style) => style.name).join(', '));
-    }
-    return index;
+    const groups = [...new Set(styles.map(({ group }) => group).filter(Boolean))];
+    throw new PanacheError(`unknown style '${name}'; the model has ${styles.length} styles: ` +
+      (groups.length ? groups : styles.map((style) => style.name)).join(', '));
   }
   _checked(handle) {
     if (handle) return handle;

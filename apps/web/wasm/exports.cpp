@@ -46,6 +46,16 @@ PANACHE_EXPORT panache_model* panache_page_remover_create(const char* data, uint
   if (const auto any = find_removal(**model, ""); !any) return fail(located(name, any.error()));
   return new panache_model{*std::move(model)};
 }
+// "elderly aged" as a list.
+static nlohmann::json split_words(std::string_view words) {
+  nlohmann::json list = nlohmann::json::array();
+  while (!words.empty()) {
+    const size_t end = std::min(words.find(' '), words.size());
+    if (end > 0) list.push_back(std::string(words.substr(0, end)));
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return list;
+}
 // See index.d.ts: Style[].
 PANACHE_EXPORT panache_bytes* panache_page_styles(const panache_model* model) {
   nlohmann::json all = nlohmann::json::array();
@@ -57,6 +67,7 @@ PANACHE_EXPORT panache_bytes* panache_page_styles(const panache_model* model) {
     all.push_back({{"name", style.name},
                    {"description", style.description},
                    {"group", style.group},
+                   {"words", split_words(style.words)},
                    {"learnt", style.learnt},
                    {"thumbnail", style.thumbnail},
                    {"gestures", gestures}});
@@ -161,7 +172,8 @@ namespace {
 
 Player* make_player(const panache_model* model, Result<Source> source) {
   if (!source) return fail(source.error());
-  Result<std::unique_ptr<Player>> player = Player::create(model->model, *std::move(source));
+  Result<std::unique_ptr<Player>> player =
+      Player::create(model ? model->model : nullptr, *std::move(source));
   if (player) return player->release();
   return fail(player.error());
 }
@@ -245,7 +257,7 @@ PANACHE_EXPORT int32_t panache_page_player_first_frame(Player* player) {
 PANACHE_EXPORT double panache_page_player_rate(Player* player) { return player->rate(); }
 PANACHE_EXPORT float panache_page_player_gate(Player* player) { return player->gate(); }
 PANACHE_EXPORT float panache_page_player_contact(Player* player, int32_t foot) {
-  return player->stylizer().contacts()[static_cast<size_t>(foot)];
+  return player->contact(static_cast<size_t>(foot));
 }
 PANACHE_EXPORT const float* panache_page_player_pose(Player* player, int32_t styled) {
   return player->shown(styled != 0).numbers.data();

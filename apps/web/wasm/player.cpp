@@ -76,23 +76,15 @@ void Shown::update(double seconds) {
 }
 
 Result<std::unique_ptr<Player>> Player::create(std::shared_ptr<const Model> model, Source source) {
-  Result<Stylizer> stylizer = Stylizer::create(model, source.rig());
-  if (!stylizer) return stylizer.error();
-  return std::unique_ptr<Player>(
-      new Player(std::move(model), *std::move(stylizer), std::move(source)));
+  std::unique_ptr<Player> player(new Player(std::move(source)));
+  if (model) {
+    if (auto used = player->use_model(std::move(model)); !used) return used.error();
+  }
+  player->step(0);
+  return player;
 }
 
-Player::Player(std::shared_ptr<const Model> model, Stylizer stylizer, Source source)
-    : model_(std::move(model)),
-      source_(std::move(source)),
-      stylizer_(std::move(stylizer)),
-      input_(source_),
-      output_(source_),
-      strengths_(model_->styles().size()),
-      strengths_now_(strengths_.size()),
-      tracks_(strengths_.size()) {
-  step(0);
-}
+Player::Player(Source source) : source_(std::move(source)), input_(source_), output_(source_) {}
 
 void Player::set_track(int style, std::vector<StrengthTrack::Point> points) {
   tracks_[static_cast<size_t>(style)] = {style, std::move(points)};
@@ -108,7 +100,7 @@ void Player::set_timing(Timing timing) {
   if (timing == timing_) return;
   timing_ = timing;
   // Cannot fail: the models and the rig are the same as before.
-  replace(stylizer_, *Stylizer::create(model_, source_.rig(), options()));
+  if (stylizer_) replace(*stylizer_, *Stylizer::create(model_, source_.rig(), options()));
   if (!removal_) return;
   replace(*removal_, *RemovalPass::create(remover_, source_.rig(), options()));
   removal_->set_removed(removed_);
@@ -131,7 +123,8 @@ void Player::set_removed(int style) {
 }
 
 float Player::gate() const {
-  return removed_ < 0 ? stylizer_.gate() : std::min(stylizer_.gate(), removal_->stylizer().gate());
+  const float gate = stylizer_ ? stylizer_->gate() : 1;
+  return removed_ < 0 ? gate : std::min(gate, removal_->stylizer().gate());
 }
 
 Result<void> Player::use_model(std::shared_ptr<const Model> model) {
@@ -172,16 +165,22 @@ void Player::step(double seconds) {
   seconds = std::clamp(seconds, 0.0, kLongestStep);
   const double neutral_seconds = seconds * rate_, input_seconds = neutral_seconds * removal_rate_;
   if (source_.advance(input_seconds, input_.pose())) {
-    stylizer_.reset();
+    if (stylizer_) stylizer_->reset();
     if (removal_) removal_->reset();
   }
   ConstPose in = input_.pose();
   if (removal_) in = removal_->step(in, input_seconds, neutral_seconds);
-  stylizer_.set_shape(shape_);
-  read_strengths();
-  stylizer_.step(in, strengths_now_, {neutral_seconds, seconds, source_.flight()}, output_.pose());
   const bool timed = timing_ != Timing::off;
-  rate_ = timed ? stylizer_.rate() : 1;
+  if (stylizer_) {
+    stylizer_->set_shape(shape_);
+    read_strengths();
+    stylizer_->step(in, strengths_now_, {neutral_seconds, seconds, source_.flight()},
+                    output_.pose());
+  } else {
+    std::ranges::copy(in.rotations, output_.rotations.begin());
+    std::ranges::copy(in.translations, output_.translations.begin());
+  }
+  rate_ = timed && stylizer_ ? stylizer_->rate() : 1;
   removal_rate_ = timed && removal_ ? removal_->stylizer().rate() : 1;
   input_.update(seconds);
   output_.update(seconds);
@@ -189,7 +188,8 @@ void Player::step(double seconds) {
 
 void Player::measure(int count) {
   constexpr double kSeconds = 1.0 / 60;
-  Stylizer twin = stylizer_;
+  if (!stylizer_) return;
+  Stylizer twin = *stylizer_;
   std::optional<RemovalPass> removal_twin = removal_;
   for (int i = 0; i < count; ++i) {
     ConstPose in = input_.pose();
@@ -224,6 +224,7 @@ Result<std::string> Player::export_as(const std::string& extension,
   how.stylizer = options();
   if (styled) how.stylizer.shape = shape_;
   how.timing = timing_ != Timing::off;
+  if (!model_) return Error{"expected a model to export the motion with"};
   const auto tracks = styled ? file_tracks() : std::vector<StrengthTrack>();
   Result<Restyled> restyled =
       styled && removed_ >= 0

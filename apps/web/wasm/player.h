@@ -47,6 +47,7 @@ struct Shown {
 
 class Player {
  public:
+  // `model` may be null: the output is the input until use_model().
   static Result<std::unique_ptr<Player>> create(std::shared_ptr<const Model> model, Source source);
 
   // Used from the next step on.
@@ -58,7 +59,8 @@ class Player {
   // Used from the next step on; the motion continues. Initially Timing::steps.
   void set_timing(Timing timing);
   Source& source() { return source_; }
-  const Stylizer& stylizer() const { return stylizer_; }
+  // How firmly the left (0) or the right foot (1) stands, 0 to 1.
+  float contact(size_t foot) const { return stylizer_ ? stylizer_->contacts()[foot] : 0; }
   // Input seconds per output second.
   double rate() const { return rate_ * removal_rate_; }
   // See StyleNetworks::gate(): the smaller gate of the remover and of the stylizer.
@@ -75,7 +77,7 @@ class Player {
   Result<void> use_model(std::shared_ptr<const Model> model);
 
   // See Stylizer::trigger().
-  bool trigger(int style, int gesture) { return stylizer_.trigger(style, gesture); }
+  bool trigger(int style, int gesture) { return stylizer_ && stylizer_->trigger(style, gesture); }
 
   // Advances by `seconds` of the viewer's time, at most a tenth per call.
   void step(double seconds);
@@ -95,7 +97,7 @@ class Player {
                                 bool styled, double seconds) const;
 
  private:
-  Player(std::shared_ptr<const Model> model, Stylizer stylizer, Source source);
+  explicit Player(Source source);
   // For the current timing.
   StylizerOptions options() const;
   // Writes the strengths at this instant to strengths_now_.
@@ -103,9 +105,9 @@ class Player {
   // All strengths that are not 0, with times of the file.
   std::vector<StrengthTrack> file_tracks() const;
 
-  std::shared_ptr<const Model> model_;
   Source source_;
-  Stylizer stylizer_;
+  std::shared_ptr<const Model> model_;
+  std::optional<Stylizer> stylizer_;  // Set with a model.
   std::shared_ptr<const Model> remover_;
   std::optional<RemovalPass> removal_;  // Set with a remover.
   int removed_ = -1;
