@@ -1,4 +1,4 @@
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { build, defineConfig, type Plugin } from 'vite';
@@ -12,18 +12,16 @@ const files = {
   neutral: `${root}models/neutral.safetensors`,
 };
 
-// Scripts that the page loads separately when it first needs them: see src/late.ts.
+// Libraries that the page loads when it first needs them: see src/late.ts.
 const late = {
   gif: "export { applyPalette, GIFEncoder, quantize } from 'gifenc';",
-  neutral: "export { default as packed } from 'virtual:panache-file/neutral';",
-  remover: "export { default as packed } from 'virtual:panache-file/remover';",
   zip: "export { zipSync } from 'fflate';",
 };
 
-// Embeds a file in the script, as gzip in base64: a page opened from disk may not fetch anything.
-function pack(path: string) {
-  return `export default '${gzipSync(readFileSync(path), { level: 9 }).toString('base64')}';`;
-}
+const gzip = (bytes: Uint8Array | string) => gzipSync(bytes, { level: 9 });
+// A file as a script, gzip in base64: a page opened from disk may not fetch anything.
+const packedScripts = Object.entries(files).map(([name, path]): [string, string] =>
+  [name, `packed_${name}='${gzip(readFileSync(path)).toString('base64')}';`]);
 // The styles of the remover, which itself is loaded later.
 function listRemovable() {
   const bytes = readFileSync(files.remover);
@@ -33,7 +31,7 @@ function listRemovable() {
   return `export default ${JSON.stringify(
     names.filter(Boolean).map((style, i) => ({ name: style, group: groups[i] })))};`;
 }
-// import wasm from 'virtual:panache-file/wasm'
+// import removable from 'virtual:panache-removable'
 function virtualModules(): Plugin {
   const prefix = 'virtual:panache-';
   return {
@@ -41,8 +39,11 @@ function virtualModules(): Plugin {
     resolveId: (id) => (id.startsWith(prefix) ? `\0${id}` : null),
     load(id) {
       const [kind, name] = id.replace(`\0${prefix}`, '').split('/');
-      if (kind === 'file') return pack(files[name as keyof typeof files]);
       if (kind === 'late') return late[name as keyof typeof late];
+      if (kind === 'sizes') {
+        const sizes = packedScripts.map(([packed, text]) => [packed, text.length]);
+        return `export default ${JSON.stringify(Object.fromEntries(sizes))};`;
+      }
       return kind === 'removable' ? listRemovable() : null;
     },
   };
@@ -63,6 +64,9 @@ function lateScripts(): Plugin {
     name: 'panache-late-scripts',
     apply: 'build',
     async generateBundle() {
+      for (const [name, source] of packedScripts) {
+        this.emitFile({ type: 'asset', fileName: `assets/${name}.js`, source });
+      }
       for (const name of Object.keys(late)) {
         const [made] = [await build({ configFile: false, logLevel: 'warn',
           plugins: [virtualModules()], build: {
@@ -90,9 +94,24 @@ function licences(): Plugin {
   };
 }
 
+// FILE.gz next to each FILE: `panache view` and web servers that know them (gzip_static) send these
+// as they are.
+function gzipped(): Plugin {
+  return {
+    name: 'panache-gzipped',
+    apply: 'build',
+    writeBundle({ dir }, bundle) {
+      for (const name of Object.keys(bundle)) {
+        const file = `${dir}/${name}`;
+        writeFileSync(`${file}.gz`, gzip(readFileSync(file)));
+      }
+    },
+  };
+}
+
 export default defineConfig({
   base: './',
-  plugins: [virtualModules(), lateScripts(), licences(), plainScript()],
+  plugins: [virtualModules(), lateScripts(), licences(), plainScript(), gzipped()],
   build: {
     outDir: `${root}build/web`,
     emptyOutDir: true,

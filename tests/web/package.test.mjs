@@ -326,7 +326,7 @@ test('a player takes off what its file shows, and says what is wrong in a senten
   refusal(() => panache.createRemover('old'),
     /^the remover: expected an ArrayBuffer or a Uint8Array, found 'old'$/);
   refusal(() => panache.createRemover(bytes.subarray(0, 1000)), /^the remover: /);
-  refusal(() => player.setRemoved('nobody'), /^there is no style 'nobody'; the model has angry, /);
+  refusal(() => player.setRemoved('nobody'), /^unknown style 'nobody'; the model has \d+ styles: moods, /);
   refusal(() => player.useRemover(panache),
     /^remover: expected a Remover, found an object of the class Panache$/);
   refusal(() => character.setRemoved('old'),
@@ -558,7 +558,7 @@ test('a character tells what went on, and what is wrong is said in a sentence', 
   character.reset();
   character.setStrength('Old', 1);
   refusal(() => character.setStrength('nobody', 1),
-    /^there is no style 'nobody'; the model has angry, /);
+    /^unknown style 'nobody'; the model has \d+ styles: moods, /);
   refusal(() => character.setShape({ spine: 0 }), /^there is no option 'spine'$/);
   refusal(() => character.step({ ...pose, rotations: pose.rotations.slice(1) }, pose, 0.1),
     /^input.rotations: expected a Float32Array of 76 numbers, found one of 75$/);

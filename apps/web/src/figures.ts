@@ -1,15 +1,20 @@
-// A small figure of each style next to its slider: a pose of a walk in that style, animated while
-// the pointer is over it.
+// A small walking figure of each style on its card. A figure is recorded once its card is seen, and
+// its cycle played while it is.
 
-import type { Panache, Walk } from '../package/index.js';
+import type { Panache } from '../package/index.js';
 import { humanJoints } from '../package/index.js';
+import { findCycle } from './cycle';
 import { colour } from './dom';
+import { freed } from './source';
 
-const kWide = 42, kHigh = 52;  // CSS pixels.
-const kWarmUp = 1.3;           // Seconds until a style is fully eased in.
-const kPace = 1.3;             // m/s
-const kHeight = 1.75;          // Metres, the height of the box.
-const kTurn = -0.9;            // Radians; at 0 the figure faces the viewer.
+const kWide = 92, kHigh = 100;  // CSS pixels.
+const kWarmUp = 1.3;            // Seconds until a style is fully eased in.
+const kRecorded = 3;            // Seconds, at least one cycle of most styles.
+const kShortest = 0.7;          // Seconds of a cycle.
+const kStep = 1 / 24;           // Seconds.
+const kPace = 1.3;              // m/s
+const kHeight = 1.82;           // Metres, the height of the box.
+const kTurn = -0.9;             // Radians; at 0 the figure faces the viewer.
 
 /** Lines from joint to joint, and their widths in metres, back to front. */
 const kLines: [string[], number][] = [
@@ -47,12 +52,30 @@ export function paintFigure(context: CanvasRenderingContext2D, width: number, he
   context.fill();
 }
 
+/** Frames of a style's walk that repeat, kStep apart: parts [21][7]. */
+function recordWalk(panache: Panache, style: string): Float32Array[] {
+  return freed(panache.createWalker(), (walk) => {
+    walk.setStrength(style, 1);
+    walk.steer(kPace, 0);
+    for (let t = 0; t < kWarmUp; t += kStep) walk.step(kStep);
+    const frames: Float32Array[] = [];
+    for (let t = 0; t < kRecorded; t += kStep) {
+      walk.step(kStep);
+      frames.push(walk.parts('styled').slice());
+    }
+    const poses = frames.map((parts) => Float32Array.from(humanJoints.flatMap((_, j) =>
+      [parts[7 * j] - parts[0], parts[7 * j + 1], parts[7 * j + 2] - parts[2]])));
+    const cycle = findCycle(poses, Math.round(kShortest / kStep));
+    return cycle ? frames.slice(...cycle) : frames;
+  });
+}
+
 class Figure {
   readonly canvas = document.createElement('canvas');
-  #walk: Walk | null = null;
-  #last: Float32Array | null = null;
+  #frames: Float32Array[] = [];
+  #seconds = 0;
 
-  constructor(private panache: Panache, private style: string) {
+  constructor(private style: string) {
     this.canvas.className = 'figure';
     this.canvas.setAttribute('aria-hidden', 'true');
     const ratio = Math.min(2, Math.max(1.5, devicePixelRatio));
@@ -60,28 +83,16 @@ class Figure {
     this.canvas.height = kHigh * ratio;
   }
 
-  /** Draws the figure after some steps. */
-  begin() {
-    this.#walk = this.panache.createWalker();
-    this.#walk.setStrength(this.style, 1);
-    this.#walk.steer(kPace, 0);
-    for (let i = 0; i < kWarmUp * 30; ++i) this.#walk.step(1 / 30);
+  get isRecorded() { return this.#frames.length > 0; }
+  record(panache: Panache) {
+    this.#frames = recordWalk(panache, this.style);
     this.draw(0);
   }
-  end() {
-    this.#walk?.free();
-    this.#walk = null;
-  }
-  draw(seconds: number) {
-    if (this.#walk) {
-      this.#walk.setStrength(this.style, 1);  // The model may have changed.
-      this.#walk.step(seconds);
-      this.#last = this.#walk.parts('styled').slice();
-    }
-    if (this.#last) this.#paint(this.#last);
-  }
 
-  #paint(parts: Float32Array) {
+  draw(seconds: number) {
+    if (!this.isRecorded) return;
+    this.#seconds += seconds;
+    const parts = this.#frames[Math.floor(this.#seconds / kStep) % this.#frames.length];
     const context = this.canvas.getContext('2d')!;
     const { width, height } = this.canvas;
     context.clearRect(0, 0, width, height);
@@ -92,56 +103,53 @@ class Figure {
   }
 }
 
-/** Draws the figures of the rows one at a time, so the page opens without a delay. */
 export class Figures {
-  #figures = new Map<HTMLElement, Figure>();
-  #moving: Figure | null = null;
-  #waiting: Figure[] = [];
-
-  constructor(private panache: Panache, rows: Map<string, HTMLElement>) {
-    this.show(rows, 400);
-  }
-
-  /** Gives each row a figure, and drops the figures of removed rows. */
-  show(rows: Map<string, HTMLElement>, wait = 0) {
-    const kept = new Set(rows.values());
-    for (const [row, figure] of this.#figures) {
-      if (kept.has(row)) continue;
-      if (this.#moving === figure) this.#move(null);
-      this.#figures.delete(row);
+  #figures = new Map<Element, Figure>();  // By card.
+  #seen = new Set<Figure>();
+  #still = matchMedia('(prefers-reduced-motion: reduce)');
+  #pointed: Figure | null = null;
+  #unpainted = 0;  // Seconds.
+  #watch = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) {
+      const figure = this.#figures.get(target);
+      if (figure && isIntersecting) this.#seen.add(figure);
+      else if (figure) this.#seen.delete(figure);
     }
-    const idle = this.#waiting.length === 0;
-    this.#waiting = this.#waiting.filter((figure) => [...this.#figures.values()].includes(figure));
-    for (const [style, row] of rows) if (!this.#figures.has(row)) this.#add(style, row);
-    if (idle && this.#waiting.length) setTimeout(() => this.#next(), wait);
+  });
+
+  constructor(private panache: Panache) {}
+
+  /** Gives each card a figure, and drops the figures of removed cards. */
+  show(cards: Map<string, HTMLElement>) {
+    const kept = new Set<Element>(cards.values());
+    for (const [card, figure] of this.#figures) {
+      if (kept.has(card)) continue;
+      this.#watch.unobserve(card);
+      this.#seen.delete(figure);
+      this.#figures.delete(card);
+    }
+    for (const [style, card] of cards) if (!this.#figures.has(card)) this.#add(style, card);
   }
 
-  #add(style: string, row: HTMLElement) {
-    const figure = new Figure(this.panache, style);
-    row.prepend(figure.canvas);
-    this.#figures.set(row, figure);
-    this.#waiting.push(figure);
-    const start = () => this.#move(figure);
-    const stop = () => this.#moving === figure && this.#move(null);
-    for (const event of ['pointerenter', 'focusin']) row.addEventListener(event, start);
-    for (const event of ['pointerleave', 'focusout']) row.addEventListener(event, stop);
-  }
-  #next() {
-    const figure = this.#waiting.shift();
-    if (!figure) return;
-    figure.begin();
-    figure.end();
-    if (this.#waiting.length) setTimeout(() => this.#next(), 30);
+  #add(style: string, card: HTMLElement) {
+    const figure = new Figure(style);
+    card.prepend(figure.canvas);
+    this.#figures.set(card, figure);
+    card.addEventListener('pointerenter', () => (this.#pointed = figure));
+    card.addEventListener('pointerleave', () => (this.#pointed = null));
+    this.#watch.observe(card);
   }
 
-  #move(figure: Figure | null) {
-    this.#moving?.end();
-    this.#moving = figure;
-    figure?.begin();
-  }
-
+  /** Draws the figures in sight, and records one of them at most, so that the view stays smooth. */
   step(seconds: number) {
-    this.#moving?.draw(seconds);
+    const next = [...this.#seen].find((figure) => !figure.isRecorded);
+    next?.record(this.panache);
+    this.#unpainted += seconds;
+    if (this.#unpainted < kStep) return;
+    for (const figure of this.#seen) {
+      if (!this.#still.matches || figure === this.#pointed) figure.draw(this.#unpainted);
+    }
+    this.#unpainted = 0;
   }
   paint() {
     for (const figure of this.#figures.values()) figure.draw(0);

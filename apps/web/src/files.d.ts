@@ -1,7 +1,7 @@
-declare module 'virtual:panache-file/*' {
-  /** Gzip in base64. */
-  const packed: string;
-  export default packed;
+declare module 'virtual:panache-sizes' {
+  /** The bytes of assets/NAME.js of each packed file. */
+  const sizes: Record<'wasm' | 'model' | 'walker' | 'remover' | 'neutral', number>;
+  export default sizes;
 }
 
 declare module 'virtual:panache-removable' {

@@ -21,6 +21,11 @@ export function groupStyles<Own extends Listed>(styles: readonly Own[]) {
   return [...groups].map(([title, own]) => ({ title, styles: own }));
 }
 
+/** Whether a word of the style's name, group, description or other words begins with `word`. */
+export const matches = ({ name, group, description, words }: Style, word: string) =>
+  `${name} ${group} ${description} ${words.join(' ')}`.toLowerCase().split(/[^\p{L}\p{N}]+/u)
+    .some((own) => own.startsWith(word));
+
 /** The options of a menu of a file's motions: only those that move the humanoid. */
 export const motionOptions = (clips: readonly ClipInfo[], selected: number) =>
   clips.flatMap(({ name, moves }, i) => (moves

@@ -4,7 +4,7 @@ import type { LearnReport, MotionFile } from '../package/index.js';
 import { attempt } from './alerts';
 import { button, element } from './dom';
 import { capitalized, motionOptions } from './groups';
-import { late, unpack } from './late';
+import { packed } from './late';
 import { drawMatch, kMatchPlotHeight } from './match_plot';
 import type { Page } from './page';
 import { firstMotion, openFile } from './source';
@@ -166,7 +166,7 @@ export class Learn {
     const begin = performance.now();
     const { bytes, report } = panache.learnStyle(name, { file: styled.file, clip: styled.clip },
       neutral.file ? { file: neutral.file, clip: neutral.clip }
-        : await unpack((await late('neutral')).packed));
+        : await packed('neutral'));
     panache.addStyle(bytes, { replace: this.#isOwn(name) });
     const seconds = (performance.now() - begin) / 1000;
     this.page.stylesChanged(name);

@@ -17,7 +17,10 @@ export class LiveView {
   #heard = 0;   // Time of the last pose, milliseconds.
   #drawn = 0;
 
-  constructor(readonly panache: Panache) {
+  /** For tests: whether the model has arrived. */
+  ready = false;
+
+  constructor(readonly panache: Panache, private model: Promise<ArrayBuffer>) {
     document.body.dataset.source = 'live';
     document.body.dataset.view = this.#stage.view = 'side';
     this.#stage.trail = false;
@@ -35,6 +38,8 @@ export class LiveView {
   }
 
   async #begin() {
+    this.panache.setModel(await this.model);
+    this.ready = true;
     const file = this.panache.openFile(await this.#body(), 'live.bvh');
     const player = file.createPlayer(0);
     const events = new EventSource('live/poses');

@@ -1,28 +1,33 @@
 // Loads the parts of the page and starts it.
 
-import model from 'virtual:panache-file/model';
-import walker from 'virtual:panache-file/walker';
-import wasm from 'virtual:panache-file/wasm';
-
-import { Panache } from '../package/index.js';
+import { Panache, PanacheError } from '../package/index.js';
 import { find } from './dom';
-import { unpack } from './late';
+import { packed } from './late';
 import { LiveView } from './live';
 import { Page } from './page';
 import { served } from './served';
 
+/** The model that `panache view --model` serves with the page, or else the page's own. */
+async function loadModel(): Promise<ArrayBuffer> {
+  const given = await served('model');
+  if (given) return given.arrayBuffer();
+  const bar = find<HTMLProgressElement>('#styles-loaded');
+  return packed('model', (share) => (bar.value = share));
+}
+
 async function start() {
   try {
-    // The model that `panache view --model` serves with the page, or else the page's own.
-    const given = await served('model');
-    const files = await Promise.all(
-      [unpack(wasm), given ? given.arrayBuffer() : unpack(model), unpack(walker)]);
-    const panache = await Panache.create(
-      { wasm: files[0], model: files[1], walker: files[2] });
+    const bar = find<HTMLProgressElement>('#loaded');
+    const [wasm, walker] = await Promise.all(
+      [packed('wasm', (share) => (bar.value = share)), packed('walker')]);
+    const panache = await Panache.create({ wasm, walker });
     const live = new URLSearchParams(location.search).has('live');
-    Object.assign(window, { page: live ? new LiveView(panache) : new Page(panache) });
+    // The walker moves before the model, which is larger than all the rest, has arrived.
+    Object.assign(window,
+      { page: live ? new LiveView(panache, loadModel()) : new Page(panache, loadModel()) });
   } catch (error) {
-    find('#wait').textContent = `This browser cannot show the page: ${(error as Error).message}`;
+    find('#wait').textContent = error instanceof PanacheError ? error.message
+      : `This browser cannot show the page: ${(error as Error).message}`;
     throw error;
   }
 }

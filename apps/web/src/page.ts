@@ -28,6 +28,8 @@ import { Track } from './track';
 import { TransportBar } from './transport';
 import { buildViewControls } from './view_controls';
 
+const kBelowChips = 14;  // Pixels between the buttons in the view and a head.
+
 export class Page {
   readonly store: Store;
   readonly stage = new Stage(find<HTMLCanvasElement>('#view'));
@@ -51,7 +53,11 @@ export class Page {
   #last = 0;
   #seconds = 0;
 
-  constructor(readonly panache: Panache) {
+  /** Whether the model has arrived: until then the walker walks without styles. */
+  ready = false;
+  #loaded: Promise<void>;
+
+  constructor(readonly panache: Panache, model: Promise<ArrayBuffer>) {
     this.store = new Store(this.#readAddress());
     this.removal = new Removal(panache, this.store);
     this.#plots = new Plots(find('#plots'), panache.styles.map(({ name }) => name));
@@ -63,12 +69,12 @@ export class Page {
     this.#track.setStyles(panache.styles);
     find('.clip-row').append(this.#track.toggle);
     this.#panel = buildPanel(this);
-    this.#figures = new Figures(panache, this.#panel.rows.rows);
+    this.#figures = new Figures(panache);
     buildViewControls(this);
     this.stage.keepClear = () => {
       const chips = find('#camera').getBoundingClientRect();
       const view = this.stage.canvas.getBoundingClientRect();
-      const above = chips.bottom - view.top;
+      const above = chips.bottom - view.top + kBelowChips;
       return above < view.height / 2 ? above : 0;
     };
     buildWalkerControls((pace) => this.#setPace(pace));
@@ -80,13 +86,15 @@ export class Page {
       if (this.learn.open && motions.length) this.learn.take(motions, target);
       else void attempt(() => this.openAll(given));
     });
+    this.use(this.source);
+    this.store.listen((settings) => this.#apply(settings));
+    this.#loaded = model.then((bytes) => this.#begin(bytes));
+    this.#loaded.catch((error: Error) => (find('#styles-wait').textContent = error.message));
     void attempt(async () => {
+      if (!await this.#loaded.then(() => true, () => false)) return;
       const file = await served('open');
       if (file) await this.openAll([file]);
     });
-    this.use(this.source);
-    this.store.listen((settings) => this.#apply(settings));
-    rememberInAddress(this.store, () => this.#readAddress());
     matchMedia('(prefers-color-scheme: dark)')
       .addEventListener('change', () => {
         forgetColours();
@@ -97,13 +105,25 @@ export class Page {
     // A clicked button gives the keyboard focus back to the view; one reached by Tab keeps it.
     addEventListener('click', (event) => {
       const button = (event.target as HTMLElement).closest('button');
-      if (button && event.detail > 0 && !button.closest('dialog')) button.blur();
+      const keeps = button?.closest('dialog, .play');  // Arrow keys go on from a style.
+      if (button && event.detail > 0 && !keeps) button.blur();
     });
     find('#wait').hidden = true;
     requestAnimationFrame((now) => {
       this.#last = now;
       this.#frame(now);
     });
+  }
+
+  /** Shows the styles of the page's first model, with the strengths of the address. */
+  #begin(bytes: ArrayBuffer) {
+    this.panache.setModel(bytes);
+    this.stylesChanged();
+    const { styles, keys } = this.#readAddress();
+    this.store.begin({ styles, keys });
+    rememberInAddress(this.store, () => this.#readAddress());
+    this.#panel.showStyles();
+    this.ready = true;
   }
 
   // ---- One frame ----
@@ -142,7 +162,7 @@ export class Page {
     const now = Object.entries({ ...settings.styles, ...keyedNow(this.source, settings) });
     const drawn = this.#plots.follow(this.source.player, this.#seconds,
       now.map(([name, value]) => [name, value * settings.strength]));
-    if (drawn) this.#panel.rows.showNow();
+    if (drawn) this.#panel.active.showNow();
   }
 
   // ---- Settings ----
@@ -165,6 +185,21 @@ export class Page {
     this.stage.onion = settings.onion;
   }
 
+  isActive(name: string): boolean {
+    const { styles, keys } = this.store.settings;
+    return (styles[name] ?? 0) !== 0 || name in keys;
+  }
+  /** Plays a style alone, as captured. If it does so already, takes it off unless `keep`. */
+  playStyle(name: string, keep = false) {
+    const { styles, keys } = this.store.settings;
+    const alone = styles[name] === 1 && Object.keys({ ...styles, ...keys }).length === 1;
+    if (!alone) this.store.set({ styles: { [name]: 1 }, keys: {} });
+    else if (!keep) this.store.set({ styles: {} });
+  }
+  /** Adds a style to the active ones, as captured. */
+  addStyle(name: string) {
+    if (!this.isActive(name)) this.store.setStyle(name, 1);
+  }
   /** The current strength of a style. */
   strengthOf(name: string): number {
     const { settings } = this.store;
@@ -189,7 +224,7 @@ export class Page {
   stylesChanged(changed = '') {
     const { styles } = this.panache;
     this.#panel.setStyles(styles, changed);
-    this.#figures.show(this.#panel.rows.rows);
+    this.#figures.show(this.#panel.cards.buttons);
     this.#plots.styles = styles.map(({ name }) => name);
     this.#track.setStyles(styles);
     this.store.keepStyles(this.#plots.styles);
@@ -297,6 +332,7 @@ export class Page {
   /** Loads models and styles, opens the first of the other files, and lists them if there are
    * several. */
   async openAll(given: File[]) {
+    await this.#loaded;
     for (const file of given.filter(isModel)) await this.#openModel(file);
     const files = given.filter((file) => !isModel(file));
     if (files.length === 0) return;

@@ -10,7 +10,9 @@ import {
   kAmounts, kDefaults, kRegions, kTempos, type Settings, type Store, type Switch, type View,
 } from './settings';
 import { Slider } from './slider';
-import { StyleRows } from './style_rows';
+import { ActiveStyles } from './active_styles';
+import { Gestures } from './gestures';
+import { StyleCards } from './style_cards';
 
 /** Mixes of styles with a button. */
 const kPresets: readonly { title: string; styles: Record<string, number> }[] = [
@@ -89,13 +91,13 @@ function amountSliders(store: Store) {
   });
 }
 
-/** A field that filters the styles: name, group or description have to contain all its words. */
-function search(rows: StyleRows) {
-  const field = element('input', { type: 'search', id: 'search', placeholder: 'Search: slow, arms …',
+/** A field that filters the styles. */
+function search(cards: StyleCards) {
+  const field = element('input', { type: 'search', id: 'search', placeholder: 'Search: sad, elderly, ninja …',
     'aria-label': 'Search the styles' });
   const none = element('p', { class: 'hint', role: 'status' });
   const filter = () => {
-    const found = rows.filter(field.value.toLowerCase().split(/\s+/));
+    const found = cards.filter(field.value.toLowerCase().split(/\s+/));
     none.textContent = found ? '' : 'No matching style';
   };
   field.addEventListener('input', filter);
@@ -110,27 +112,27 @@ export function buildPanel(page: Page) {
     toggle(...kSwitchTitles[key], (s) => s[key], store, (s) => ({ [key]: !s[key] })));
   const tempos = kTempos.map((tempo) => toggle(...kTempoTitles[tempo], (s) => s.tempo === tempo,
     store, () => ({ tempo })));
-  const rows = new StyleRows(page);
-  const chips = presets(store), found = search(rows);
+  const cards = new StyleCards(page), active = new ActiveStyles(page), gestures = new Gestures(page);
+  const chips = presets(store), found = search(cards);
   const pad = buildPad(store, kCorners);
   const act = (id: string, text: string, hint: string, press: () => void, can: () => boolean) => {
     const out = button(text, press, { id, title: hint });
     store.listen(() => (out.disabled = !can()));
     return out;
   };
+  find('#panel').after(active.element);
   find('#panel').append(
     element('div', { class: 'chips', id: 'history', role: 'group', 'aria-label': 'Changes' },
       act('undo', 'Undo', 'Undo (Ctrl Z)', () => store.undo(), () => store.canUndo),
       act('redo', 'Redo', 'Redo (Ctrl Shift Z)', () => store.redo(), () => store.canRedo),
       act('reset-all', 'Reset all', 'Reset all settings',
         () => store.set({ ...kDefaults, styles: {}, keys: {} }), () => true)),
-    element('h2', {}, 'Input'), page.removal.element,
-    element('h2', {}, 'Presets'), chips.group,
     element('div', { class: 'heading' },
       element('h2', { id: 'styles', tabindex: -1 }, 'Styles'), learn.button),
     learn.section,
-    element('p', { class: 'hint' }, '0 is neutral, 1 as captured, above 1 exaggerated.'),
-    found.field, found.none, rows.element,
+    found.field, found.none, cards.element, gestures.element,
+    element('h2', {}, 'Mixes'), chips.group,
+    element('h2', {}, 'Input'), page.removal.element,
     element('h2', {}, 'Blend of four'), pad.element,
     element('h2', {}, 'Amount'), ...amountSliders(store),
     element('div', { class: 'chips', id: 'tempo', role: 'group', 'aria-label': 'Tempo of the style' },
@@ -148,13 +150,20 @@ export function buildPanel(page: Page) {
   });
   const setStyles = (now: readonly Style[], changed = '') => {
     const names = now.map((style) => style.name);
-    rows.set(now, changed);
+    cards.set(now, changed);
+    active.set();
+    gestures.set(now);
     found.filter();
     chips.setStyles(names);
     pad.setStyles(now);
   };
+  /** Shows the panel once there are styles. */
+  const showStyles = () => {
+    find('#styles-wait').remove();
+    find('#panel').removeAttribute('aria-busy');
+  };
   setStyles(page.panache.styles);
-  return { rows, setStyles };
+  return { cards, active, setStyles, showStyles };
 }
 
 /** "drunk off + old 1.00 + proud over time"; only clips have keys. */
@@ -164,5 +173,5 @@ export function captionOf({ styles, keys, removed }: Settings, isClip: boolean):
     .map(([name, value]) => `${name} ${value.toFixed(2)}`);
   if (removed) parts.unshift(removed === kAnyStyle ? 'style off' : `${removed} off`);
   parts.push(...keyed.map((name) => `${name} over time`));
-  return parts.length ? parts.join(' + ') : 'neutral: move a slider';
+  return parts.length ? parts.join(' + ') : 'neutral: click a style';
 }

@@ -20,7 +20,7 @@ interface Moment {
 
 /** The values drawn as a line, their range, and the values of its grid lines. */
 const kLines: ['gate' | 'rate', number, number, number[]][] = [
-  ['gate', 0, 1, [0, 1]], ['rate', 0.5, 1.5, [1]],
+  ['gate', 0, 1, [0, 1]], ['rate', 0, 2.5, [1, 2]],
 ];
 
 /** The median; 0 if there are no numbers. */

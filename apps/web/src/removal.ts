@@ -5,7 +5,7 @@ import removable from 'virtual:panache-removable';
 import type { Panache, Remover } from '../package/index.js';
 import { button, element } from './dom';
 import { styleOptions } from './groups';
-import { late, unpack } from './late';
+import { packed } from './late';
 import type { Store } from './settings';
 import type { Source } from './source';
 
@@ -42,8 +42,8 @@ export class Removal {
 
   /** The model; the first call loads it. */
   load(): Promise<Remover> {
-    return this.#coming ??= late('remover').then(async ({ packed }) =>
-      this.remover = this.panache.createRemover(await unpack(packed)),
+    return this.#coming ??= packed('remover').then((bytes) =>
+      this.remover = this.panache.createRemover(bytes),
     ).catch((error: unknown) => {
       this.#coming = null;
       throw error;

@@ -147,6 +147,10 @@ export class Store {
     this.#undone = [];
     this.#tell(next);
   }
+  /** Changes the settings without a step of the undo history. */
+  begin(patch: Partial<Settings>) {
+    this.#tell({ ...this.settings, ...patch });
+  }
   setStyle(name: string, value: number) {
     const styles = { ...this.settings.styles, [name]: value };
     if (value === 0) delete styles[name];

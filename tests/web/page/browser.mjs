@@ -103,21 +103,24 @@ export async function start() {
 
   // Without a hash as a visitor sees it first; most tests want a neutral start.
   async function open(hash = 'neutral', options = {}) {
-    const { url = address, steady, card, ...look } = options;
+    // `route`: what becomes of some requests; the page may then not get ready, or fail.
+    const { url = address, steady, card, route, fails, ...look } = options;
     const tab = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...look });
     tab.setDefaultTimeout(kPatience);
     if (steady) await tab.addInitScript(steadyFrames);
     if (card) await tab.addInitScript(graphicsCard);
     if (isFirefox) await tab.addInitScript(keepDownloads);
+    if (route) await tab.route(...route);
     tab.on('console', (message) => {
       // Chromium warns of its own slowness when WebGL runs in software.
       const ours = !/GL Driver Message|software WebGL/.test(message.text());
-      if (ours && ['error', 'warning'].includes(message.type())) complaints.push(message.text());
+      if (ours && !fails && ['error', 'warning'].includes(message.type())) complaints.push(message.text());
     });
-    tab.on('pageerror', (error) => complaints.push(error.message));
+    tab.on('pageerror', (error) => fails || complaints.push(error.message));
     tab.on('request', (request) => requests.push(request.url()));
     await tab.goto(url + (hash ? `#${hash}` : ''));
-    await tab.waitForFunction(() => window.page?.frames > 2);
+    if (route) return tab;
+    await tab.waitForFunction(() => window.page?.ready && window.page.frames > 2);
     return tab;
   }
   /** A page of somebody else. */
@@ -135,8 +138,17 @@ export async function start() {
   return { open, plain, close, address, requests };
 }
 
-/** The slider of a style, which may have any name. */
+/** The slider of an active style, which may have any name. */
 export const slider = (tab, style) => tab.locator(`[id="style-${encodeURIComponent(style)}"]`);
+/** The button on the card of a style. */
+export const card = (tab, style) => tab.locator(`.play[data-style="${style}"]`);
+/** Gives a style a strength, besides the others. */
+export async function setStyle(tab, style, value) {
+  if (!(await slider(tab, style).count())) {
+    await card(tab, style).evaluate((play) => play.nextElementSibling.click());
+  }
+  await slider(tab, style).fill(value);
+}
 /** Opens all groups of styles. */
 export const unfold = (tab) => tab.evaluate(() =>
   document.querySelectorAll('details.fold:not([open]) summary').forEach((fold) => fold.click()));

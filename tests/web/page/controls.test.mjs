@@ -1,8 +1,13 @@
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { cpSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { frames, listen, pictures, slider, start, styledParts, told, unfold } from './browser.mjs';
+import {
+  card, frames, listen, models, pictures, setStyle, slider, start, styledParts, told, unfold,
+  workFolder,
+} from './browser.mjs';
 
 let site, tab;
 before(async () => {
@@ -19,18 +24,73 @@ const address = (wanted, where = tab) =>
 const field = (title) => tab.getByLabel(`${title}, exact`);
 const button = (name) => tab.getByRole('button', { name, exact: true });
 
-test('every style has a slider that sets its strength, and no other', async () => {
-  const styles = await tab.evaluate(() => window.page.panache.styles.map((style) => style.name));
+const stylesOf = (where) =>
+  where.evaluate(() => window.page.panache.styles.map((style) => style.name));
+
+test('a click plays a style alone, another takes it off, and a slider sets its strength', async () => {
+  const styles = await stylesOf(tab);
   assert.ok(styles.length >= 50);
-  for (const style of styles) {
-    await slider(tab, style).fill('1.5');
+  const only = async (style, strength) => {
     const { strengths } = await told(tab);
-    for (const other of styles) assert.equal(strengths[other], other === style ? 1.5 : 0, style);
-    await button(`Reset ${style[0].toUpperCase()}${style.slice(1)}`).click();
+    for (const other of styles) {
+      assert.equal(strengths[other], other === style ? strength : 0, `${style}: ${other}`);
+    }
+  };
+  for (const [i, style] of styles.entries()) {
+    await card(tab, style).click();
+    await only(style, 1);
+    assert.equal(await card(tab, style).getAttribute('aria-pressed'), 'true');
+    if (i % 9) continue;
+    await slider(tab, style).fill('1.5');
+    await only(style, 1.5);
+    await card(tab, style).click();
+    await only(style, 1);
+    await card(tab, style).click();
+    await only(style, 0);
+    assert.equal(await card(tab, style).getAttribute('aria-pressed'), 'false');
   }
+  await button('Neutral').click();
+});
+
+test('five clicks on a fresh page show five styles, and the cards stay where they are', async () => {
+  const other = await site.open('');
+  await other.locator('#search').fill('');
+  const top = () => card(other, 'angry').evaluate((play) => play.getBoundingClientRect().top);
+  const before = await top();
+  for (const style of ['angry', 'attitude', 'depressed', 'drunk', 'graceful']) {
+    await card(other, style).click();
+    assert.deepEqual(await other.evaluate(() => window.page.store.settings.styles), { [style]: 1 });
+    assert.equal(await top(), before);
+  }
+  // Arrow keys go on from there: sideways, and down to the card below, into the next group.
+  const playing = () => other.evaluate(() => Object.keys(window.page.store.settings.styles).join());
+  await other.keyboard.press('ArrowRight');
+  assert.equal(await playing(), 'jaunty');
+  await other.keyboard.press('ArrowLeft');
+  assert.equal(await playing(), 'graceful');
+  await other.keyboard.press('ArrowUp');
+  assert.equal(await playing(), 'attitude');
+  await other.keyboard.press('ArrowLeft');
+  await other.keyboard.press('ArrowLeft');
+  assert.equal(await playing(), 'angry');
+  await card(other, 'strutting').click();
+  await other.keyboard.press('ArrowRight');
+  assert.equal(await playing(), 'childlike');
+  assert.ok(await card(other, 'childlike').isVisible());
+  // The walker does not turn by these keys.
+  await listen(other);
+  await other.keyboard.down('ArrowLeft');
+  await frames(other, 2);
+  assert.ok((await told(other)).steer.turn < 1);
+  await other.keyboard.up('ArrowLeft');
+  // + adds to the active ones.
+  await card(other, 'angry').evaluate((play) => play.nextElementSibling.click());
+  assert.equal(await playing(), 'strutting,angry');
+  await other.close();
 });
 
 test('a field takes the exact value, and holds it within the bounds', async () => {
+  await setStyle(tab, 'old', '1');
   await field('Old').fill('0.37');
   await field('Old').press('Enter');
   assert.equal((await told(tab)).strengths.old, 0.37);
@@ -60,7 +120,7 @@ test('the tempo of the style is taken where the feet step, everywhere or nowhere
   assert.equal(await tempo('Steps').getAttribute('aria-pressed'), 'true');
   await tempo('Off').click();
   assert.equal((await told(tab)).timing, 'off');
-  await tab.locator('#style-old').fill('2');
+  await setStyle(tab, 'old', '2');
   await frames(tab, 20);
   assert.equal(await rate(), 1);
   await address('#style.old=2&tempo=off');
@@ -136,7 +196,7 @@ test('what is set is in the address, and comes back from it', async () => {
 });
 
 test('each view shows something else', async () => {
-  await tab.locator('#style-old').fill('2');
+  await setStyle(tab, 'old', '2');
   await button('Idle').click();
   await frames(tab, 20);
   const pictures = new Set();
@@ -202,6 +262,8 @@ test('the walker stands, walks and jogs, and turns by keys, stick and gamepad', 
   assert.ok((await steer()).turn > 1);
   await tab.evaluate(() => {
     window.pad.axes = [0, 0];
+    document.querySelector('.play[data-style=old] + .add').click();
+    document.querySelector('#style-old').value = 0;
     document.querySelector('#style-old').focus();
     window.pad.buttons[15] = { pressed: true };
   });
@@ -211,7 +273,7 @@ test('the walker stands, walks and jogs, and turns by keys, stick and gamepad', 
 
 test('every plot shows what it says', async () => {
   await button('Walk').click();
-  await tab.locator('#style-old').fill('1');
+  await setStyle(tab, 'old', '1');
   await button('More plots').click();
   const captions = await tab.locator('figcaption').allTextContents();
   assert.deepEqual(captions.map((text) => text.replace(/[\d.]+(×| µs \(median\))?$/, '').trim()), ['Style strength',
@@ -244,7 +306,7 @@ test('every plot shows what it says', async () => {
       }
       return [name, 1 - (weighed / sum - 3) / (height - 6)];
     })));
-  const wanted = { styles: 1.5 / 2.5, gate: 0.25, rate: 0.75, contacts: 0.78 };
+  const wanted = { styles: 1.5 / 2.5, gate: 0.25, rate: 0.5, contacts: 0.78 };
   for (const [name, value] of Object.entries(wanted)) {
     // Half of a line that is two pixels thick, and as much for whole pixels: 2 of 52.
     assert.ok(Math.abs(inks[name] - value) < 0.04, `${name}: ${inks[name]}`);
@@ -257,7 +319,7 @@ test('every plot shows what it says', async () => {
 test('every change is undone and redone, and Reset all resets all', async () => {
   await button('Reset all').click();
   await tab.waitForTimeout(550);  // What is done within half a second counts as one.
-  await tab.locator('#style-old').fill('1.5');
+  await setStyle(tab, 'old', '1.5');
   await tab.waitForTimeout(550);
   await button('Legs').click();
   await tab.keyboard.press('Control+z');
@@ -278,13 +340,15 @@ test('every change is undone and redone, and Reset all resets all', async () => 
   await address('#neutral');
 });
 
-test('the description of a style is shown whole', async () => {
+test('the description of an active style is shown whole', async () => {
+  for (const style of ['hobbling', 'legs apart', 'angry']) await setStyle(tab, style, '1');
   const cut = await tab.evaluate(() => [...document.querySelectorAll('.words')]
     .filter((e) => e.checkVisibility() && (e.scrollWidth > e.clientWidth ||
       e.scrollHeight > e.clientHeight || getComputedStyle(e).whiteSpace === 'nowrap'))
     .map((e) => e.textContent));
   assert.deepEqual(cut, []);
-  assert.ok(await tab.locator('.words:visible').count() >= 50);
+  assert.equal(await tab.locator('.words:visible').count(), 3);
+  await button('Neutral').click();
 });
 
 test('Open is the largest button under the view, and one menu has all that is saved', async () => {
@@ -307,38 +371,59 @@ test('Open is the largest button under the view, and one menu has all that is sa
   assert.equal(await items.count(), 0);
 });
 
+const shownCards = (where) => where.locator('.play:visible .name').allTextContents();
+
 test('styles are found by their words', async () => {
-  const shown = () => tab.locator('.slider:has(.figure):visible label').allTextContents();
-  const all = await shown();
+  const all = await shownCards(tab);
   await tab.locator('#search').fill('stiff slow');
-  assert.deepEqual(await shown(), ['Aching']);
-  // Of a group by its name, and what is active besides.
+  assert.deepEqual(await shownCards(tab), ['Aching']);
+  // Of a group by its name.
   await tab.locator('#search').fill('injuries');
-  assert.deepEqual(await shown(),
+  assert.deepEqual(await shownCards(tab),
     ['Aching', 'Dragging a leg', 'Hobbling', 'Hurt stomach', 'Limping']);
+  // What is active is no hit.
   await button('Old').click();
-  await frames(tab, 2);
-  assert.deepEqual((await shown())[0], 'Old');
+  assert.equal((await shownCards(tab))[0], 'Aching');
+  assert.ok(await slider(tab, 'old').isVisible());
   await button('Neutral').click();
-  await frames(tab, 2);
-  assert.deepEqual((await shown())[0], 'Aching');
   await tab.locator('#search').fill('xyzzy');
-  assert.deepEqual(await shown(), []);
+  assert.deepEqual(await shownCards(tab), []);
   assert.ok(await tab.getByText('No matching style').isVisible());
   await tab.locator('#search').fill('');
-  assert.deepEqual(await shown(), all);
+  assert.deepEqual(await shownCards(tab), all);
+});
+
+test('everyday words find styles', async () => {
+  const { folder, at, remove } = workFolder();
+  cpSync(join(models, 'panache-int8.safetensors'), at('described.safetensors'));
+  cpSync(join(models, 'styles.csv'), at('styles.csv'));
+  execFileSync(join(models, '../scripts/describe-models'), ['described.safetensors'], { cwd: folder });
+  const other = await site.open();
+  await other.setInputFiles('#file', at('described.safetensors'));
+  await other.waitForFunction(() =>
+    window.page.panache.styles.some(({ words }) => words.includes('elderly')));
+  const wanted = { happy: 'Joyful', sad: 'Depressed', elderly: 'Old', tired: 'Moping',
+    monster: 'Zombie', ninja: 'Sneaking', fat: 'Heavyset', injured: 'Limping', afraid: 'Scared',
+    soldier: 'Marching', kid: 'Childlike', ape: 'Gorilla' };
+  for (const [word, style] of Object.entries(wanted)) {
+    await other.locator('#search').fill(word);
+    const found = await shownCards(other);
+    assert.ok(found.includes(style) && found.length <= 4, `${word}: ${found}`);
+  }
+  await other.close();
+  remove();
 });
 
 test('styles stand in groups that fold, and a search looks into all of them', async () => {
   const other = await site.open();
-  const sliders = other.locator('#style-rows input[type=range]:visible');
-  const groups = other.locator('details.fold');
+  const cards = other.locator('.play:visible');
+  const groups = other.locator('#style-cards details.fold');
   const titles = await groups.locator('h3').allTextContents();
   assert.deepEqual(titles,
     ['Moods', 'Ages', 'Bodies', 'Creatures', 'Ways of walking', 'Injuries']);
   const open = () => groups.evaluateAll((boxes) => boxes.map((box) => box.open && !box.hidden));
   assert.deepEqual(await open(), [true, false, false, false, false, false]);
-  const moods = await sliders.count();
+  const moods = await cards.count();
   assert.equal(await groups.nth(0).locator('.count').textContent(), String(moods));
   await groups.nth(1).locator('summary').press('Enter');
   assert.deepEqual(await open(), [true, true, false, false, false, false]);
@@ -346,60 +431,73 @@ test('styles stand in groups that fold, and a search looks into all of them', as
   assert.deepEqual(await open(), [false, true, false, false, false, false]);
   await other.locator('#search').fill('undead');
   assert.deepEqual(await open(), [false, false, false, true, false, false]);
-  assert.equal(await sliders.count(), 1);
   await other.locator('#search').fill('');
   assert.deepEqual(await open(), [false, true, false, false, false, false]);
+  const order = await other.locator('.play .name').allTextContents();
+  assert.deepEqual(order.map((text) => text.toLowerCase()), await stylesOf(other));
   await other.close();
 });
 
-test('active styles are on top, and none moves while it is in use', async () => {
+test('active styles have sliders below, and none vanishes while it is in use', async () => {
   const other = await site.open();
-  await unfold(other);
   const active = () => other.locator('#active-styles label').allTextContents();
-  const top = async (style) => (await slider(other, style).boundingBox()).y;
-  assert.ok(!(await other.locator('#active-styles').isVisible()));
-  await slider(other, 'shy').focus();
-  const before = await top('shy');
-  await other.keyboard.press('End');
-  await other.keyboard.press('ArrowLeft');
   assert.deepEqual(await active(), []);
-  assert.equal(await top('shy'), before);
-  // The next slider has the focus now and stays where it was on the screen.
-  await slider(other, 'singing').focus();
-  const next = await top('singing');
-  await other.waitForFunction(() => document.querySelector('#active-styles label'));
-  assert.deepEqual(await active(), ['Shy']);
-  assert.ok(Math.abs(await top('singing') - next) < 1.5);
-  assert.equal(await slider(other, 'shy').inputValue(), '1.99');
-  // In the order of the model, also where their group is closed.
-  await other.locator('details.fold').nth(3).locator('summary').click();
+  assert.ok(await other.getByText('Neutral: click a style to see it.').isVisible());
+  await setStyle(other, 'shy', '1.5');
   await other.getByRole('button', { name: 'Proud robot' }).click();
-  await frames(other, 2);
   assert.deepEqual(await active(), ['Proud', 'Robot']);
-  assert.ok(await slider(other, 'robot').isVisible());
-  await other.getByRole('button', { name: 'Neutral' }).click();
-  await frames(other, 2);
-  assert.deepEqual(await active(), []);
-  assert.ok(!(await slider(other, 'robot').isVisible()));
-  const order = await other.locator('#style-rows label').allTextContents();
-  assert.deepEqual(order.map((text) => text.toLowerCase()),
-    await other.evaluate(() => window.page.panache.styles.map(({ name }) => name)));
+  await slider(other, 'robot').focus();
+  await slider(other, 'robot').fill('0');
+  assert.deepEqual(await active(), ['Proud', 'Robot']);
+  await slider(other, 'robot').fill('0.5');
+  await slider(other, 'robot').fill('0');
+  await slider(other, 'proud').focus();
+  await other.waitForFunction(() => !document.getElementById('style-robot'));
+  assert.deepEqual(await active(), ['Proud']);
   await other.close();
 });
 
-test('a style shows itself as a figure, which moves while it is pointed at', async () => {
-  const look = (style) => tab.evaluate((name) =>
-    document.querySelector(`.slider:has(#style-${name}) .figure`).toDataURL(), style);
-  await tab.waitForFunction(() => [...document.querySelectorAll('.figure')].every((canvas) =>
-    canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.some((v) => v)));
-  assert.notEqual(await look('old'), await look('proud'));
-  const still = await look('proud');
-  await frames(tab, 5);
-  assert.equal(await look('proud'), still);
-  await tab.locator('#style-proud').hover();
-  await frames(tab, 5);
-  assert.notEqual(await look('proud'), still);
-  await tab.locator('#view').hover();
+test('gestures stand in one list, in an animator\'s words, and play', async () => {
+  const other = await site.open();
+  await other.locator('#gestures summary').click();
+  const titles = await other.locator('#gestures button').allTextContents();
+  assert.ok(titles.length >= 20);
+  for (const title of titles) assert.match(title, /^[A-Z][a-z ]+ \d\.\d s( \(\d\))?$/);
+  assert.ok(titles.some((title) => title.startsWith('Glance left')));
+  const row = other.locator('#gestures p').first();
+  const style = await row.getAttribute('data-style');
+  await row.locator('button').first().click();
+  // The style of the gesture is on.
+  assert.equal(await slider(other, style).inputValue(), '1');
+  await other.close();
+});
+
+test('help opens at its top', async () => {
+  const other = await site.open('neutral', { viewport: { width: 1100, height: 500 } });
+  await other.locator('#show-help').click();
+  assert.equal(await other.locator('#help').evaluate((dialog) => dialog.scrollTop), 0);
+  assert.ok(await other.locator('#help-title').isVisible());
+  await other.keyboard.press('Escape');
+  await other.close();
+});
+
+test('a style shows itself as a figure that walks while it is in sight', async () => {
+  const look = (style) => card(tab, style).locator('.figure').evaluate((c) => c.toDataURL());
+  const isDrawn = (style) => tab.waitForFunction((name) => {
+    const canvas = document.querySelector(`.play[data-style="${name}"] .figure`);
+    return canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.some((v) => v);
+  }, style);
+  await card(tab, 'angry').scrollIntoViewIfNeeded();
+  await isDrawn('angry');
+  const still = await look('angry');
+  await frames(tab, 8);
+  assert.notEqual(await look('angry'), still);
+  await card(tab, 'limping').scrollIntoViewIfNeeded();
+  await isDrawn('limping');
+  assert.notEqual(await look('limping'), await look('angry'));
+  const gone = await look('angry');
+  await frames(tab, 8);
+  assert.equal(await look('angry'), gone);
 });
 
 test('a key that is held shows the input, and keys work after a click on a button', async () => {

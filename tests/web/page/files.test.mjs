@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
 import {
-  chooseSave, download, drop as dropFiles, frames, models, start, unfold, workFolder,
+  chooseSave, download, drop as dropFiles, frames, models, setStyle, start, unfold, workFolder,
 } from './browser.mjs';
 
 const program = process.env.PANACHE_PROGRAM;
@@ -119,7 +119,7 @@ test('a clip goes frame by frame, and from the loop start to the loop end', asyn
 });
 
 test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
-  await tab.locator('#style-proud').fill('1');
+  await setStyle(tab, 'proud', '1');
   for (const extension of ['.bvh', '.glb']) {
     const info = panache('info', await save(extension.slice(1).toUpperCase(), extension));
     assert.match(info, /joints  2[12], of which/);  // A GLB has a node above them.
@@ -175,7 +175,7 @@ test('a loop is saved: a cycle of the clip whose end leads to its beginning, or 
   };
   await drop('walk.bvh');
   await isPlaying();
-  await tab.locator('#style-proud').fill('1');
+  await setStyle(tab, 'proud', '1');
   const cycle = await saveLoop();
   assert.equal(saved.pop(), 'walk-proud.gif');
   assert.equal(cycle.repetitionCount, 'Infinity');
@@ -199,11 +199,11 @@ test('a loop is saved: a cycle of the clip whose end leads to its beginning, or 
     return (1 - (parseFloat(left) + parseFloat(right)) / 100) * file.clips[clip].seconds;
   });
   assert.ok(seconds > 0.4 && seconds < 0.8, `${seconds}`);
-  await tab.locator('#style-proud').fill('0');
+  await setStyle(tab, 'proud', '0');
   const { steps: part } = await saveLoop();
   assert.equal(saved.pop(), 'walk-neutral.gif');
   assert.ok(Math.abs(part.length - 1 - 25 * seconds) <= 1, `${part.length} frames, ${seconds} s`);
-  await tab.locator('#style-proud').fill('1');
+  await setStyle(tab, 'proud', '1');
   for (const [share, key] of [[0, 'i'], [1, 'o']]) {
     await tab.locator('#scrub').fill(String(share));
     await frames(tab, 2);
@@ -389,7 +389,7 @@ test('the walk itself is saved as it was steered', async () => {
 
 test('panache view serves the page to this machine alone, with the file open in it', async (t) => {
   await tab.close();  // Two pages that draw without a graphics card take each other's time.
-  const server = spawn(program, ['view', 'walk.bvh'], { cwd: folder });
+  const server = spawn(program, ['view', '--no-open', 'walk.bvh'], { cwd: folder });
   t.after(() => server.kill());
   const said = await new Promise((done) => {
     server.stdout.once('data', (data) => done(String(data)));

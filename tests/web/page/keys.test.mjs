@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
 import {
-  chooseSave, doubleClick, download, frames, models, pictures, start, unfold, workFolder,
+  chooseSave, doubleClick, download, frames, models, pictures, setStyle, start, unfold, workFolder,
 } from './browser.mjs';
 
 const model = join(models, 'panache-int8.safetensors');
@@ -85,7 +85,7 @@ test('keyframes are added, moved and removed with the mouse', async () => {
 
 test('keyframes are added, moved and removed with the keyboard', async () => {
   await seek(0.5);
-  await tab.locator('#style-old').fill('0.5');
+  await setStyle(tab, 'old', '0.5');
   await tab.locator('#view').focus().catch(() => {});
   await tab.evaluate(() => document.activeElement.blur());
   await tab.keyboard.press('k');
@@ -113,7 +113,7 @@ test('what is seen follows the keyframes, and the slider sets one', async () => 
   const now = Number(await tab.locator('#style-old').inputValue());
   assert.ok(Math.abs(now - 0.5) < 0.02, `${now}`);
   assert.equal(await tab.locator('#caption').textContent(), 'old over time');
-  await tab.locator('#style-old').fill('1.5');
+  await setStyle(tab, 'old', '1.5');
   assert.equal((await keys()).length, 3);
   assert.equal((await keys())[1][1], 1.5);
   // Something is changed by it in the pose itself.

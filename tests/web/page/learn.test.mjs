@@ -105,14 +105,14 @@ test('the style is saved as a file that the program takes, and opens again by dr
   await drop(tab, '#view', [file('lumbering.safetensors')]);
   await tab.locator('#style-lumbering').waitFor();
   // Six figures from the clip.
-  const picture = tab.locator('.slider:has(#style-lumbering) img.thumbnail');
+  const picture = tab.locator('.card:has([data-style=lumbering]) img.thumbnail');
   await picture.scrollIntoViewIfNeeded();
   const size = await picture.evaluate(async (image) => {
     await image.decode();
     return [image.naturalWidth / image.naturalHeight, image.clientWidth / image.clientHeight];
   });
   for (const ratio of size) assert.ok(Math.abs(ratio - 540 / 190) < 0.05, `${size}`);
-  assert.equal(await tab.locator('.slider:has(#style-old) img.thumbnail').count(), 0);
+  assert.equal(await tab.locator('.card:has([data-style=old]) img.thumbnail').count(), 0);
   await tab.screenshot({ path: join(pictures, 'thumbnail.png') });
   assert.equal((await told(tab)).strengths.lumbering, 1);
   const again = await download(tab, () => button('Save lumbering as a style file').click());
@@ -192,7 +192,7 @@ test('a model opens by drop, and panache view --model shows the page with it', a
   await tab.waitForFunction(() => !document.querySelector('#style-mix'));
   assert.ok((await styles()).includes('lumbering') && !(await styles()).includes('mix'));
   await tab.close();
-  const server = spawn(program, ['view', '--model', 'mine.safetensors'], { cwd: folder });
+  const server = spawn(program, ['view', '--no-open', '--model', 'mine.safetensors'], { cwd: folder });
   t.after(() => server.kill());
   const said = await new Promise((done) => {
     server.stdout.once('data', (data) => done(String(data)));

@@ -85,7 +85,7 @@ test('the page runs under the policy that panache view sends, with a file open i
   const folder = await mkdtemp(join(tmpdir(), 'panache-'));
   const walk = join(folder, 'walk.bvh');
   execFileSync(process.env.PANACHE_PROGRAM, ['walker', '-o', walk, '--seconds', '2']);
-  const program = spawn(process.env.PANACHE_PROGRAM, ['view', walk]);
+  const program = spawn(process.env.PANACHE_PROGRAM, ['view', '--no-open', walk]);
   try {
     const address = await new Promise((resolve, reject) => {
       program.stdout.once('data', (text) => resolve(text.toString().trim()));

@@ -134,7 +134,7 @@ test('a link takes a style off, also from a disk, where nothing can be fetched',
   for (const url of [site.address, pathToFileURL(join(pageFolder, 'index.html')).href]) {
     const other = await site.open('removed=zombie', { url });
     assert.equal(await other.locator('#removed').inputValue(), 'zombie');
-    await other.waitForFunction(() => window.late_remover);
+    await other.waitForFunction(() => window.page.removal.remover);
     await frames(other, 30);
     const far = await change(other);
     assert.ok(far > 0.005, `${url}: ${far} m`);

@@ -1,0 +1,68 @@
+// The active styles below the panel: a slider for each.
+
+import type { Style } from '../package/index.js';
+import { element } from './dom';
+import { capitalized } from './groups';
+import type { Page } from './page';
+import { kLeast, kMost } from './settings';
+import { Slider } from './slider';
+
+export class ActiveStyles {
+  readonly element = element('section', { id: 'active-styles', 'aria-label': 'Active styles' });
+  #none = element('p', { class: 'hint' }, 'Neutral: click a style to see it.');
+  #sliders = new Map<string, Slider>();
+
+  constructor(private page: Page) {
+    this.element.append(this.#none);
+    page.store.listen(() => this.#show());
+    this.element.addEventListener('focusout', () => setTimeout(() => this.#show()));
+  }
+
+  /** Shows the current strengths of styles with keys. */
+  showNow() {
+    for (const [name, slider] of this.#sliders) {
+      if (!(name in this.page.store.settings.keys)) continue;
+      slider.show(Math.round(this.page.strengthOf(name) * 100) / 100);
+    }
+  }
+
+  /** Builds the rows again, as descriptions may have changed. */
+  set() {
+    for (const { row } of this.#sliders.values()) row.remove();
+    this.#sliders.clear();
+    this.#show();
+  }
+
+  #make({ name, description }: Style): Slider {
+    const slider = new Slider({
+      id: `style-${encodeURIComponent(name)}`, title: capitalized(name),
+      hint: description || undefined, least: kLeast, most: kMost, rest: 0,
+      onChange: (value) => this.page.setStrength(name, value),
+      onReset: () => this.page.store.dropStyle(name),
+    });
+    slider.row.append(element('p', { class: 'words' }, description));
+    return slider;
+  }
+
+  #show() {
+    const { styles, keys } = this.page.store.settings;
+    for (const [name, { row }] of this.#sliders) {
+      // A slider in use stays, also at 0.
+      if (this.page.isActive(name) || row.contains(document.activeElement)) continue;
+      row.remove();
+      this.#sliders.delete(name);
+    }
+    for (const style of this.page.panache.styles) {
+      const { name } = style;
+      if (!this.page.isActive(name) || this.#sliders.has(name)) continue;
+      const slider = this.#make(style);
+      this.#sliders.set(name, slider);
+      this.element.append(slider.row);
+    }
+    for (const [name, slider] of this.#sliders) {
+      slider.row.classList.toggle('keyed', name in keys);
+      if (!(name in keys)) slider.show(styles[name] ?? 0);
+    }
+    this.#none.hidden = this.#sliders.size > 0;
+  }
+}
