@@ -75,6 +75,7 @@ def supply_all(arguments, folder):
 
 def serves(arguments, folder):
     """Whether it says where it listens; it is ended then."""
+    arguments = arguments + ['--no-open'] if arguments[0] == 'view' else arguments
     process = subprocess.Popen([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     ready = select.select([process.stdout], [], [], 60)[0]
@@ -97,7 +98,7 @@ def check(page, line, folder):
     elif line.startswith('find '):
         subprocess.run(line, shell=True, cwd=folder, check=True)
     elif line.startswith('panache ') and not any(name in line for name in kElsewhere):
-        arguments = shlex.split(line)[1:]
+        arguments = shlex.split(line.replace('../../samples', os.path.join(root, 'samples')))[1:]
         supply_all(arguments, folder)
         if arguments[0] == 'view' and not kHasPage:
             return
