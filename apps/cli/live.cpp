@@ -27,14 +27,17 @@
 namespace panache::cli {
 namespace {
 
+constexpr const char* kTrackerPort = "39539";
+
 struct Options {
-  std::string in = "39539", out = "39540";
+  std::string in = kTrackerPort, out = "39540";
   std::vector<std::string> styles;
   std::string model, record;
   panache::LiveOptions time;
   ShapeFlags shape;
   RemovalFlags removal;
-  bool view = false, quiet = false, force = false;
+  double smooth = 0;
+  bool mirror = false, view = false, quiet = false, force = false;
 };
 
 // One strength per style of the model.
@@ -63,7 +66,18 @@ Result<void> check_no_circle(const sockaddr_in& in, const sockaddr_in& out) {
                std::to_string(ntohs(in.sin_port)) + " for both"};
 }
 
-void relay_until_stopped(VmcRelay& relay, bool quiet) {
+// What to do where no motion comes in.
+std::string how_to_connect(const sockaddr_in& in) {
+  const bool all = ntohl(in.sin_addr.s_addr) == INADDR_ANY;
+  const std::string port = std::to_string(ntohs(in.sin_port));
+  return "no motion comes in yet: let the tracker send VMC (its settings call it VMC or OSC) to " +
+         (all ? "this machine, 127.0.0.1 if it runs here, at port " + port : to_string(in)) +
+         "; 'panache live send walk.bvh" + (port == kTrackerPort ? "" : " --to " + port) +
+         "' plays a file as a tracker";
+}
+
+void relay_until_stopped(VmcRelay& relay, const sockaddr_in& in, bool quiet) {
+  bool silent = false;
   double next = stamp_now() + 1;
   while (!stop_asked()) {
     relay.run_once();
@@ -72,7 +86,12 @@ void relay_until_stopped(VmcRelay& relay, bool quiet) {
     next = stamp_now() + 1;
     const std::string line = relay.second(), note = relay.take_note();
     if (!note.empty()) print_message(note);
-    if (!quiet) print_message(line);
+    // Silence is told once.
+    if (!quiet && !line.empty()) print_message(line);
+    if (!quiet && line.empty() && !silent) {
+      print_message(relay.senders() == 0 ? how_to_connect(in) : "no motion comes in any more");
+    }
+    silent = line.empty();
   }
   relay.finish();
 }
@@ -158,7 +177,7 @@ int live(const Options& options) {
   const Serving serving(server.get());
   VmcRecording recording;
   VmcRelay relay(std::move(socket), out,
-                 {model, how, removal ? removal->style : -1,
+                 {model, how, removal ? removal->style : -1, options.mirror, options.smooth,
                   options.record.empty() ? nullptr : &recording, server ? &view : nullptr},
                  strengths);
   if (!options.quiet) {
@@ -166,7 +185,7 @@ int live(const Options& options) {
                   " until Ctrl-C ends it");
   }
   const double begin = stamp_now();
-  relay_until_stopped(relay, options.quiet);
+  relay_until_stopped(relay, in, options.quiet);
   print_summary(relay, stamp_now() - begin);
   if (!options.record.empty()) write_recording(recording, options);
   return kDone;
@@ -212,6 +231,11 @@ void add_live(CLI::App& app, int& exit_code) {
   verb->add_flag("--skip-cycles", options->time.skip_cycles,
                  "Skip or repeat whole gait cycles to stay within the\n"
                  "limits, so that a tempo lasts (with --max-lag 1.5)");
+  verb->add_flag("--mirror", options->mirror,
+                 "Exchange left and right: the avatar moves like a mirror");
+  add_option(*verb, "--smooth SECONDS", options->smooth,
+             "Smooth the tracked motion, delaying it by at most\nSECONDS (0 to 1); default: 0")
+      ->check(in_range(0.0, VmcFilter::kMaxSmooth));
   verb->add_flag("--view", options->view,
                  "Show the first sender's motion, before and after, on a page in a browser");
   verb->add_flag("--force", options->force, "Overwrite the recording");

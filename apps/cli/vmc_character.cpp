@@ -30,7 +30,9 @@ bool same_bits(const T& a, const T& b) {
 }  // namespace
 
 void VmcCharacter::reset() noexcept {
-  if (stylizer_) stylizer_->reset();
+  if (!stylizer_) return;
+  stylizer_->reset();
+  filter_->reset();
 }
 
 void VmcCharacter::take(Datagram datagram, std::span<const VmcMessage> messages,
@@ -118,6 +120,7 @@ Result<void> VmcCharacter::stand() {
   stylizer_->set_removed(how_.removed);
 
   bones_ = std::move(order);
+  filter_.emplace(bones_, how_.mirror, how_.smooth);
   whole_ = now_.known;
   for (size_t j = 0; j < bones_.size(); ++j) joint_of_[static_cast<size_t>(bones_[j])] = j;
   pose_ = styled_ = rest_clip(clip.skeleton);
@@ -145,15 +148,17 @@ void VmcCharacter::style(std::span<const float> strengths) {
     pose.rotations[j] = now_.rotations[b];
     pose.translations[j] = now_.positions[b];
   }
+  filter_->apply(pose, now_.seconds - last_frame_);
   stylizer_->step(pose, strengths, now_.seconds - last_frame_, styled);
   last_frame_ = now_.seconds;
   for (const Place& place : open_) {
     std::vector<char>& bytes = held_[place.datagram].bytes;
     const size_t j = place.joint;
-    if (!same_bits(styled.rotations[j], pose.rotations[j])) {
+    const auto b = static_cast<size_t>(bones_[j]);
+    if (!same_bits(styled.rotations[j], now_.rotations[b])) {
       put_rotation(bytes, place.at, styled.rotations[j]);
     }
-    if (!same_bits(styled.translations[j], pose.translations[j])) {
+    if (!same_bits(styled.translations[j], now_.positions[b])) {
       put_position(bytes, place.at, styled.translations[j]);
     }
   }

@@ -13,6 +13,7 @@
 #include "live_view.h"
 #include "style/live_stylizer.h"
 #include "vmc_bones.h"
+#include "vmc_filter.h"
 #include "vmc_messages.h"
 #include "vmc_recording.h"
 #include "vmc_socket.h"
@@ -23,7 +24,9 @@ namespace panache::cli {
 struct VmcStyling {
   std::shared_ptr<const Model> model;
   LiveOptions options;
-  int removed = -1;  // See LiveStylizer::set_removed().
+  int removed = -1;     // See LiveStylizer::set_removed().
+  bool mirror = false;  // See VmcFilter, also for the next.
+  double smooth = 0;
   // The first character that is recognised is recorded and shown. Either may be null; both must
   // outlive the characters.
   VmcRecording* recording = nullptr;
@@ -83,7 +86,8 @@ class VmcCharacter {
   VmcBoneSet seen_;            // Received in this frame.
   std::vector<Bones> learnt_;  // Frames of the first second.
 
-  std::optional<LiveStylizer> stylizer_;      // Set once the rig is made.
+  std::optional<LiveStylizer> stylizer_;  // Set once the rig is made, like the next.
+  std::optional<VmcFilter> filter_;
   VmcBoneSet whole_;                          // Complete frame; has the root only if sent.
   std::vector<int> bones_;                    // [joints]
   std::array<size_t, kVmcBones> joint_of_{};  // Joint of each bone.

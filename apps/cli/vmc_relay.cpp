@@ -97,7 +97,7 @@ void VmcRelay::apply_command(const VmcMessage& message) {
     for (Sender& sender : senders_) sender.character.reset();
   }
   if (message.kind != VmcMessage::style) return;
-  const Result<int> style = how_.model->find_style(message.name);
+  const Result<int> style = how_.model->find_style_by_any_name(message.name);
   const double strength = message.strength;
   if (!style) {
     note_ = with_hint(located("/panache/style", style.error()));
@@ -156,6 +156,7 @@ void VmcRelay::send(const Datagram& datagram) {
 std::string VmcRelay::second() {
   size_t heard = 0;
   for (Sender& sender : senders_) heard += std::exchange(sender.this_second, false);
+  if (heard == 0 && second_.frames == 0 && second_.lost == 0 && second_.rejected == 0) return "";
   std::string line = plural(static_cast<size_t>(second_.frames), "frame") + " of " +
                      plural(heard, "sender") + ", " + std::to_string(second_.lost) + " lost, p50 " +
                      std::to_string(second_.latencies.quantile_us(0.5)) + " us, p99 " +

@@ -46,7 +46,8 @@ class VmcRelay {
 
   const VmcCounts& all() const { return all_; }
   size_t senders() const { return met_; }  // So far.
-  // "270 frames of 3 senders, 0 lost, p50 85 us, p99 210 us, old 1": since the last call.
+  // "270 frames of 3 senders, 0 lost, p50 85 us, p99 210 us, old 1": since the last call. Empty if
+  // nothing has been received.
   std::string second();
   // The last message for the user since the last call, or empty.
   std::string take_note() { return std::exchange(note_, {}); }
