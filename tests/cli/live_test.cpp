@@ -226,6 +226,42 @@ TEST_F(LiveVerb, an_old_walk_leans_forward_even_when_each_bone_comes_alone) {
   EXPECT_GT(lean(got_, 60) - lean(sent_, 60), 0.05f);
 }
 
+TEST_F(LiveVerb, a_mirrored_walk_swings_the_other_leg) {
+  start_live({"--mirror"});
+  play(1.5);
+  const std::map<std::string, Bone> in = bones_of(sent_.back()), out = bones_of(got_.back());
+  for (const std::string bone : {"UpperLeg", "LowerArm", "Foot"}) {
+    for (const auto& [side, other] : {std::pair("Left", "Right"), std::pair("Right", "Left")}) {
+      const Quat q = in.at(side + bone).rotation, seen = out.at(other + bone).rotation;
+      EXPECT_EQ(seen, (Quat{q.x, -q.y, -q.z, q.w})) << side << bone;
+    }
+  }
+  EXPECT_EQ(out.at("Hips").position.x, -in.at("Hips").position.x);
+  EXPECT_EQ(out.at("LeftFoot").position, in.at("LeftFoot").position);
+  EXPECT_EQ(end_live().exit, 0);
+}
+
+TEST_F(LiveVerb, says_once_how_to_connect_and_once_that_nothing_comes_any_more) {
+  const auto count = [&](const std::string& text) {
+    const std::string err = read("live.err");
+    size_t found = 0;
+    for (size_t at = 0; (at = err.find(text, at)) != err.npos; ++at) ++found;
+    return found;
+  };
+  start_live({});
+  const std::string hint = "no motion comes in yet: let the tracker send VMC";
+  for (int i = 0; i < kPatience && count(hint) == 0; ++i) nap(5);
+  nap(1500);
+  EXPECT_EQ(count(hint), 1u);
+  EXPECT_NE(read("live.err").find("'panache live send walk.bvh --to " + std::to_string(in_) + "'"),
+            std::string::npos);
+  play(0.3);
+  for (int i = 0; i < kPatience && count("no motion comes in any more") == 0; ++i) nap(5);
+  EXPECT_EQ(count(" frames of 1 sender"), 1u);
+  EXPECT_EQ(count(hint), 1u);
+  EXPECT_EQ(end_live().exit, 0);
+}
+
 TEST_F(LiveVerb, sigterm_ends_it_with_a_recording_of_all_frames) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
   start_live({"--record", "take.bvh"});
