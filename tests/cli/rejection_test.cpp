@@ -54,6 +54,24 @@ TEST_F(Rejection, an_unknown_style_gets_the_nearest_names) {
                         "unknown style 'olld'; the nearest is old (panache styles lists all)");
 }
 
+TEST_F(Rejection, an_everyday_word_is_told_the_name_of_its_style) {
+  TensorFile model = make_model({"angry", "old"});
+  model.metadata["style_words"] = "furious\nelderly aged\n";
+  write("words.safetensors", format_safetensors(model));
+  expect_rejected({"stylize", "walk.bvh", "--style", "elderly", "-o", "out.bvh"}, 2,
+                  "--style elderly: elderly is old here; expected a name and a strength, as in "
+                  "'old=1'",
+                  "words.safetensors");
+  const Ran by_word =
+      run({"stylize", "walk.bvh", "--style", "Elderly=1", "-o", "word.bvh"}, "words.safetensors");
+  EXPECT_EQ(by_word.exit, 0);
+  EXPECT_NE(by_word.err.find("panache: Elderly is old here\n"), std::string::npos) << by_word.err;
+  const Ran by_name =
+      run({"stylize", "walk.bvh", "--style", "OLD=1", "-o", "name.bvh"}, "words.safetensors");
+  EXPECT_EQ(by_name.err.find(" here"), std::string::npos) << by_name.err;
+  EXPECT_EQ(read("word.bvh"), read("name.bvh"));
+}
+
 TEST_F(Rejection, a_strength_is_a_finite_number_in_range) {
   for (const std::string strength : {"nan", "NaN", "inf", "-inf", "much", "", "4.1", "-5", "1e40",
                                      "0x1", "1 ", "1,5", "..", "0..", "..1", "0..nan", "1..5"}) {
