@@ -73,7 +73,7 @@ function normalsOf({ positions, triangles }) {
   const out = positions.map(() => [0, 0, 0]);
   const same = new Map();  // The first vertex at a place: seams are smooth.
   const first = positions.map((p) => {
-    const key = p.map((v) => v.toFixed(5)).join();
+    const key = p.map((v) => Math.round(1e5 * v) || 0).join();
     if (!same.has(key)) same.set(key, same.size);
     return same.get(key);
   });
