@@ -36,11 +36,10 @@ test('a click plays a style alone, another takes it off, and a slider sets its s
       assert.equal(strengths[other], other === style ? strength : 0, `${style}: ${other}`);
     }
   };
-  for (const [i, style] of styles.entries()) {
+  for (const style of styles.filter((_, i) => i % 9 === 0)) {
     await card(tab, style).click();
     await only(style, 1);
     assert.equal(await card(tab, style).getAttribute('aria-pressed'), 'true');
-    if (i % 9) continue;
     await slider(tab, style).fill('1.5');
     await only(style, 1.5);
     await card(tab, style).click();
