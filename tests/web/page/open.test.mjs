@@ -89,7 +89,7 @@ test('three hundred styled frames have the same bits in the browser and natively
 });
 
 // What comes late is not counted: src/late.ts.
-test('the first load is under 1.2 MB compressed, model included', async () => {
+test('the first load is under 1.38 MB compressed, model included', async () => {
   const late = ['gif.js', 'neutral.js', 'remover.js', 'zip.js'];
   const files = (await readdir(pageFolder, { recursive: true, withFileTypes: true }))
     .filter((entry) => entry.isFile() && entry.name !== 'licences.txt');
@@ -101,7 +101,7 @@ test('the first load is under 1.2 MB compressed, model included', async () => {
     bytes += packed.length;
   }
   console.log(`first load: ${bytes} bytes`);
-  assert.ok(bytes < 1.2e6, `${bytes} bytes`);
+  assert.ok(bytes < 1.38e6, `${bytes} bytes`);
   for (const name of late) {
     assert.ok(!site.requests.some((request) => request.endsWith(name)), `${name} is asked for`);
   }
