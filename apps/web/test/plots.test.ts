@@ -33,7 +33,7 @@ describe('a line under the view', () => {
     return canvas.points;
   }
 
-  const kMoments = [{ gate: 1, rate: 0.5 }, { gate: 0, rate: 1.5 }, { gate: 0.5, rate: 1 }];
+  const kMoments = [{ gate: 1, rate: 0 }, { gate: 0, rate: 2.5 }, { gate: 0.5, rate: 1.25 }];
 
   it('is at the top where the styles know the motion, and at the bottom where they do not', () => {
     const points = drawn('gate', kMoments);
@@ -41,7 +41,7 @@ describe('a line under the view', () => {
     expect(points.map(([x]) => Math.round(x))).toEqual([80, 100, 120]);
     expect(points.map(([, y]) => y)).toEqual([3, kHeight - 3, kHeight / 2]);
   });
-  it('shows the rate of time from half to one and a half', () => {
+  it('shows the rate of time from nothing to two and a half', () => {
     expect(drawn('rate', kMoments).map(([, y]) => y)).toEqual([kHeight - 3, 3, kHeight / 2]);
   });
 });

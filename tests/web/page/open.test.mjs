@@ -26,7 +26,7 @@ test('the walker walks while the styles are still on their way', async () => {
     await held;
     await route.continue();
   }] });
-  await tab.waitForFunction(() => window.page.frames > 2);
+  await tab.waitForFunction(() => window.page?.frames > 2);
   const pose = () => styledParts(tab);
   const then = await pose();
   await frames(tab, 5);
@@ -36,7 +36,7 @@ test('the walker walks while the styles are still on their way', async () => {
   assert.ok(!(await tab.locator('#search').isVisible()));
   assert.ok(!(await tab.locator('#wait').isVisible()));
   release();
-  await tab.waitForFunction(() => window.page.ready);
+  await tab.waitForFunction(() => window.page?.ready);
   assert.ok(await tab.locator('#search').isVisible());
   assert.equal(await tab.locator('#style-old').inputValue(), '1.5');
   assert.ok(await tab.locator('#undo').isDisabled());
