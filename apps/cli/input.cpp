@@ -93,6 +93,13 @@ void note_rate(const Clip& clip, const Rig& rig, const std::string& path,
   }
 }
 
+void note_remarks(const Rig& rig, const std::string& path, std::vector<std::string>& notes) {
+  for (const std::string& remark : rig.remarks()) {
+    const std::string note = path + ": " + remark;
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  }
+}
+
 void print_notes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) print_message(note);
 }

@@ -41,6 +41,9 @@ Result<std::vector<int>> pick_clips(const MotionFile& file, const std::string& w
 void note_rate(const Clip& clip, const Rig& rig, const std::string& path,
                std::vector<std::string>& notes);
 
+// Adds what Rig::remarks() says, once for all motions of a file.
+void note_remarks(const Rig& rig, const std::string& path, std::vector<std::string>& notes);
+
 // Prints each as a message on stderr.
 void print_notes(const std::vector<std::string>& notes);
 

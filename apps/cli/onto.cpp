@@ -101,7 +101,7 @@ void name_new_motions(FileJob& file, const std::vector<std::string>& has, const 
 Result<CharacterFile> CharacterFile::open(const OntoFlags& flags) {
   Result<std::unique_ptr<MotionFile>> file = open_motion(flags.file);
   if (!file) return file.error();
-  Result<RigOptions> options = read_rig_options({{}, "", flags.map});
+  Result<RigOptions> options = read_rig_options({{}, "", flags.map, ""});
   if (!options) return options.error();
   print_notes((*file)->notes());
   const bool moves = !(*file)->clip_names().empty();

@@ -19,6 +19,7 @@ namespace {
 struct RetargetVerb : MotionFlags {
   bool no_feet = false;
   bool no_hands = false;
+  bool path_on_hips = false;
 };
 
 void retarget_file(FileJob& file, const CharacterFile& character, const MotionFlags& flags,
@@ -44,6 +45,7 @@ void retarget_file(FileJob& file, const CharacterFile& character, const MotionFl
       file.seconds += put.duration();
       if (file.mapping.is_null()) file.mapping = mapping_json(rig);
       note_rate(from, rig, place, file.notes);
+      note_remarks(rig, file.input, file.notes);
       motions.push_back({std::move(put), title_of(name, file.input)});
     } catch (const Failure& failure) {
       failures.push_back(failure.error);
@@ -89,6 +91,9 @@ void add_retarget(CLI::App& app, int& exit_code) {
   add_result_options(*verb, *options);
   verb->add_flag("--no-feet", options->no_feet, "Do not correct feet and floor contact");
   verb->add_flag("--no-hands", options->no_hands, "Do not correct hands that touch");
+  verb->add_flag("--path-on-hips", options->path_on_hips,
+                 "Keep the path over the ground on the hips, even if the\ncharacter has a root "
+                 "joint for it");
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->footer(
@@ -99,8 +104,9 @@ void add_retarget(CLI::App& app, int& exit_code) {
       "  panache retarget takes/ --onto avatar.vrm -o on-avatar/\n"
       "  panache stylize walk.bvh --onto hero.glb --style old=1 -o old-hero.glb");
   verb->callback([options, &exit_code] {
-    exit_code = retarget_files(*options, {!options->no_feet, !options->no_hands}, "retargeting",
-                               "retargeted");
+    exit_code =
+        retarget_files(*options, {!options->no_feet, !options->no_hands, !options->path_on_hips},
+                       "retargeting", "retargeted");
   });
 }
 

@@ -84,6 +84,9 @@ void add_rig_options(CLI::App& verb, RigFlags& flags) {
   add_option(verb, "--map FILE", flags.map,
              "JSON map of joints, as in\n{\"leftHand\": \"Hand_L\", "
              "\"neck\": null}, or an edited\n'panache info --json'; others are found");
+  add_option(verb, "--skeleton NAME", flags.skeleton,
+             "Figure to take, if a file has several, by its topmost\njoint; default: those that "
+             "the motion moves");
 }
 
 Result<void> check_rig_flags(const RigFlags& flags) {
@@ -99,6 +102,7 @@ Result<RigOptions> read_rig_options(const RigFlags& flags) {
   RigOptions options;
   if (flags.scale) options.metres_per_unit = static_cast<float>(*flags.scale);
   if (!flags.up.empty()) options.up_axis = axis_name(flags.up);
+  options.figure = flags.skeleton;
   if (flags.map.empty()) return options;
   Result<std::string> text = read_file(flags.map);
   if (!text) return text.error();

@@ -1,5 +1,5 @@
 #pragma once
-// Rig settings given by the user instead of detected: --scale, --up and --map.
+// Rig settings given by the user instead of detected: --scale, --up, --map and --skeleton.
 
 #include <optional>
 #include <string>
@@ -15,9 +15,10 @@ struct RigFlags {
   std::optional<double> scale;  // Metres per file unit.
   std::string up;               // As typed, or empty.
   std::string map;              // A JSON file, or empty.
+  std::string skeleton;         // A figure of several, or empty.
 };
 
-// Gives `verb` the three options; `flags` must outlive it.
+// Gives `verb` these options; `flags` must outlive it.
 void add_rig_options(CLI::App& verb, RigFlags& flags);
 
 // Checks the scale's range and the axis without reading any file.

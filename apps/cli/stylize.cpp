@@ -12,12 +12,15 @@
 #include "clip/text_cursor.h"
 #include "formats.h"
 #include "input.h"
+#include "learn/recognise.h"
 #include "messages.h"
 #include "model_path.h"
 #include "onto.h"
 #include "restyle_report.h"
+#include "rig/figures.h"
 #include "rig/in_place.h"
 #include "rig_report.h"
+#include "sides.h"
 #include "style_options.h"
 #include "strengths.h"
 #include "style/restyle.h"
@@ -28,7 +31,7 @@ namespace {
 
 struct StylizeOptions : MotionFlags {
   ShapeFlags shape;
-  std::vector<std::string> styles;
+  std::vector<std::string> styles, sides;
   std::string strengths;  // A CSV, or empty.
   std::string model;
   RemovalFlags removal;
@@ -50,28 +53,56 @@ struct Wanted {
   std::optional<CharacterFile> onto;
 };
 
-Json tracks_json(const std::vector<StrengthTrack>& tracks, const Model& model) {
+Json tracks_json(const std::vector<StrengthTrack>& tracks, const Wanted& wanted) {
   Json styles = Json::array();
   for (const StrengthTrack& track : tracks) {
     Json points = Json::array();
     for (const StrengthTrack::Point& point : track.points) {
       points.push_back({{"seconds", point.seconds}, {"strength", point.strength}});
     }
-    const std::string& name = model.styles()[static_cast<size_t>(track.style)].name;
-    styles.push_back({{"name", name}, {"points", points}});
+    const std::string& name = wanted.model->styles()[static_cast<size_t>(track.style)].name;
+    const double side{side_of(wanted.how.stylizer.sides, track.style)};
+    styles.push_back({{"name", name}, {"side", rounded(side)}, {"points", points}});
   }
   return styles;
 }
 
-// "walk (old 1)", "walk (old off, proud 1)".
+// "walk (old 1)", "walk (old off, limping 1 mirrored)".
 std::string result_name(const std::string& title, const Wanted& wanted) {
   std::string styles;
   if (wanted.removal) styles = describe(*wanted.removal);
   for (const StrengthWish& wish : wanted.wishes) {
     const std::string& style = wanted.model->styles()[static_cast<size_t>(wish.track.style)].name;
-    styles += (styles.empty() ? "" : ", ") + style + " " + describe(wish);
+    styles += (styles.empty() ? "" : ", ") + style + " " + describe(wish) +
+              describe_side(side_of(wanted.how.stylizer.sides, wish.track.style));
   }
   return title + " (" + styles + ")";
+}
+
+// The options for each figure that is styled: all that the clip moves, unless one is given.
+std::vector<RigOptions> figures_to_style(const Clip& clip, const Wanted& wanted) {
+  std::vector<RigOptions> all;
+  if (wanted.rig.figure.empty() && wanted.rig.joints.empty() && !wanted.onto) {
+    for (const Figure& figure : find_figures(clip)) {
+      if (!figure.moves) continue;
+      all.push_back(wanted.rig);
+      all.back().figure = figure.name;
+    }
+  }
+  if (all.size() < 2) all = {wanted.rig};
+  return all;
+}
+
+// Whether a motion shows nothing to take off, because it is neutral; then with a note.
+bool note_neutral(const Removal& removal, const Clip& clip, const Rig& rig,
+                  const std::string& place, FileJob& file) {
+  constexpr float kNeutral = 0.95f;
+  const auto shares = recognise_styles(removal.remover, clip, rig);
+  if (!shares || shares->front().style >= 0 || shares->front().share < kNeutral) return false;
+  file.notes.push_back(place + ": is " +
+                       fixed(100.0 * static_cast<double>(shares->front().share), 0) +
+                       " % neutral, so no style is taken off");
+  return true;
 }
 
 // name: the motion's name in its file.
@@ -79,9 +110,11 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
                        const Wanted& wanted, FileJob& file,
                        const std::function<void(double)>& progress) {
   const std::string place = name.empty() ? file.input : file.input + ": " + name;
-  Rig rig = need(make_rig(motion.clip(which), wanted.rig, place));
+  const std::vector<RigOptions> figures = figures_to_style(motion.clip(which), wanted);
+  Rig rig = need(make_rig(motion.clip(which), figures.front(), place));
   if (file.mapping.is_null()) file.mapping = mapping_json(rig);
   note_rate(motion.clip(which), rig, place, file.notes);
+  note_remarks(rig, file.input, file.notes);
   // Retargets first and then restyles, with the same result as two runs of the program.
   Clip put;
   if (wanted.onto) {
@@ -91,11 +124,25 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
   const Clip& clip = wanted.onto ? put : motion.clip(which);
   const std::vector<StrengthTrack> tracks = tracks_for(
       wanted.wishes, rig.first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
-  Result<Restyled> restyled =
-      wanted.removal
-          ? restyle_without(clip, rig, *wanted.removal, wanted.model, tracks, wanted.how, progress)
-          : restyle(clip, rig, wanted.model, tracks, wanted.how, progress);
-  if (!restyled) throw Failure{located(place, restyled.error()), kBadInput};
+  RestyleOptions how = wanted.how;
+  if (figures.size() > 1) {  // They keep the same time.
+    how.timing = false;
+    how.loop = LoopMode::off;
+  }
+  const bool removes = wanted.removal && !note_neutral(*wanted.removal, clip, rig, place, file);
+  const auto restyle_one = [&](const Clip& from, const Rig& of) {
+    Result<Restyled> done =
+        removes ? restyle_without(from, of, *wanted.removal, wanted.model, tracks, how, progress)
+                : restyle(from, of, wanted.model, tracks, how, progress);
+    if (!done) throw Failure{located(place, done.error()), kBadInput};
+    return done;
+  };
+  Result<Restyled> restyled = restyle_one(clip, rig);
+  for (size_t i = 1; i < figures.size(); ++i) {
+    const Rig other = need(make_rig(motion.clip(which), figures[i], place));
+    restyled->clip = std::move(restyle_one(restyled->clip, other)->clip);
+    if (wanted.in_place) stay_in_place(other, restyled->clip);
+  }
   NewMotion out{.name = result_name(title_of(name, file.input), wanted)};
   // Skips a leading reference pose, which is not restyled.
   const auto first = static_cast<size_t>(std::min(rig.first_frame(), clip.frames - 1));
@@ -106,8 +153,8 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
                         {"frames_in", motion.clip(which).frames},
                         {"frames_out", restyled->clip.frames},
                         {"seconds", restyled->clip.duration()},
-                        {"removed", removed_json(wanted.removal)},
-                        {"styles", tracks_json(tracks, *wanted.model)},
+                        {"removed", removed_json(removes ? wanted.removal : std::nullopt)},
+                        {"styles", tracks_json(tracks, wanted)},
                         {"gate", to_json(gate)},
                         {"facts", to_json(facts)}});
   file.facts.push_back(place + ": " + describe(facts));
@@ -200,12 +247,16 @@ std::vector<StrengthWish> collect_wishes(const StylizeOptions& options, const Mo
   return wishes;
 }
 
-// "old-proud": the default suffix of result names.
+// "old-proud", "limping-left": the default suffix of result names.
 std::string name_styles(const StylizeOptions& options) {
   std::vector<std::string> parts;
   parts.reserve(options.styles.size() + 1);
   if (options.styles.empty() && options.strengths.empty()) parts.emplace_back("neutral");
   for (const std::string& style : options.styles) parts.push_back(style.substr(0, style.find('=')));
+  for (const std::string& side : options.sides) {
+    const std::string value = side.substr(side.find('=') + 1);
+    parts.push_back((parse_number(value) ? "side" : "") + value);
+  }
   if (!options.strengths.empty()) {
     parts.push_back(std::filesystem::path(options.strengths).stem().string());
   }
@@ -238,6 +289,8 @@ int stylize(const StylizeOptions& options) {
   wanted.model = need(Model::load(path));
   // Before the files, so that a missing style is reported before a missing output.
   wanted.wishes = collect_wishes(options, *wanted.model);
+  need(check_sides_used(options.sides, wanted.wishes, *wanted.model), kBadUsage);
+  how.stylizer.sides = need(parse_sides(options.sides, *wanted.model), kBadUsage);
   wanted.removal = read_removal(options.removal);
   const std::optional<CharacterFile>& onto = wanted.onto;
   if (!options.onto.file.empty()) wanted.onto = need(CharacterFile::open(options.onto));
@@ -266,6 +319,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
              "above 1 exaggerates (-4 to 4). NAME=1..0 changes evenly\n"
              "from the first frame to the last. One --style per style")
       ->allow_extra_args(false);
+  add_side_option(*verb, options->sides);
   add_option(*verb, "--strengths FILE", options->strengths,
              "CSV with a column 'seconds' and a column per style");
   add_option(*verb, "--model FILE", options->model,
@@ -292,6 +346,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh\n"
       "  panache stylize walk.bvh --style old=1           (into walk-old.bvh)\n"
+      "  panache stylize walk.bvh --style limping=1 --side limping=left -o left.bvh\n"
       "  panache stylize drunk.bvh --remove drunk --style proud=1 -o proud.bvh\n"
       "  panache stylize takes/ --style proud=0.7 --style angry=0..1 -o restyled/\n"
       "  panache stylize hero.glb --clip walk --style moping=1 -o moping-hero.glb");

@@ -44,6 +44,12 @@ Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string
   size_t at = text->starts_with("\xef\xbb\xbf") ? 3 : 0;
   CsvTable table;
   const std::vector<std::string> header = take_row(*text, at);
+  if (const size_t other = header[0].find_first_of(";\t");
+      header.size() == 1 && other != std::string::npos) {
+    return Error{path + ":1: cells are separated by " +
+                 (header[0][other] == ';' ? "semicolons" : "tabs") +
+                 "; expected commas, and points in numbers: save the table as CSV with commas"};
+  }
   table.columns = columns.empty() ? header : columns;
   std::vector<size_t> order;  // Indices of the cells; header.size() for a missing column.
   for (const std::string& column : table.columns) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include "base/os/part_file.h"
@@ -60,7 +61,24 @@ Result<std::string> read_file(const std::string& path) {
     bytes.append(block, n);
   }
   if (std::ferror(file.get())) return Error{path + ": cannot be read: " + std::strerror(errno)};
+  if (auto other = find_other_content(bytes, path)) return *other;
   return bytes;
+}
+
+std::optional<Error> find_other_content(std::string_view bytes, const std::string& path) {
+  if (bytes.starts_with("version https://git-lfs")) {
+    return Error{path + ": is a pointer of Git LFS instead of the file; 'git lfs pull' fetches it"};
+  }
+  // Letters of text in UTF-16 have a zero in every second byte, in either order.
+  constexpr size_t kLooked = 8;
+  const bool little = bytes.starts_with("\xff\xfe"), big = bytes.starts_with("\xfe\xff");
+  if (bytes.size() < kLooked || !(little || big)) return std::nullopt;
+  for (size_t i = 2; i < kLooked; ++i) {
+    if ((bytes[i] == 0) != ((i % 2 == 1) == little)) return std::nullopt;
+  }
+  return Error{path +
+               ": is text in UTF-16; expected UTF-8: save it so in an editor, or by 'iconv -f "
+               "UTF-16 -t UTF-8'"};
 }
 
 Result<void> write_file(const std::string& path, std::string_view bytes, bool force) {

@@ -25,6 +25,9 @@ struct Joint {
   // The file's animation leaves it at rest throughout, as if it animated only morph weights or
   // props; always false in formats that hold only the motion of joints.
   bool still = false;
+  // The file's animation has no channel of it, unlike others; always false in formats whose motions
+  // have all joints.
+  bool unkeyed = false;
 };
 
 struct Skeleton {

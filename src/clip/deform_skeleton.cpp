@@ -27,6 +27,7 @@ Clip on_tree(const Clip& clip, const DeformTree& tree) {
     Joint joint = clip.skeleton.joints[tree.joints[j]];
     joint.parent = tree.parents[j];
     joint.can_translate = joint.parent < 0 && joint.can_rotate;
+    joint.unkeyed = false;  // Joints that are not in this tree may move it.
     const Placed placed = local(at_rest, j);
     joint.rest = placed.rotation;
     joint.offset = placed.position;

@@ -93,12 +93,12 @@ bool build_gltf_skeleton(GltfDocument& document, GltfChecker& checker);
 bool read_gltf_clips(GltfDocument& document, GltfChecker& checker, std::optional<double> fps);
 
 // gltf_retime.cpp: the file with corrected times: all samplers of an animation that begins before 0
-// are shifted together to begin at 0; and with `fps`, each animation whose keys give a rate
-// (GltfAnimation::has_rate) gets this rate. `bytes` stays empty if nothing changes. Old keys stay
-// in the data, unused.
+// are shifted together to begin at 0; of keys at one time, the later ones follow at the next
+// instants; and with `fps`, each animation whose keys give a rate (GltfAnimation::has_rate) gets
+// this rate. `bytes` stays empty if nothing changes. Old keys stay in the data, unused.
 struct RetimedGltf {
   std::string bytes;
-  std::vector<std::string> notes;  // Animations that began before 0, for MotionFile::notes().
+  std::vector<std::string> notes;  // What was wrong, for MotionFile::notes().
 };
 // Fails if there would be too many new keys.
 bool retime_gltf(const GltfDocument& document, std::optional<double> fps, const std::string& name,

@@ -44,7 +44,13 @@ class Retimer {
                             ": expected no key before 0 s, found one at " + brief(begin) +
                             " s; all keys of this animation are read that much later");
       }
-      if (!to.changes()) continue;
+      const double twice = first_repeated(a);
+      if (twice >= 0) {
+        out.notes.push_back(name + ": " + item_path("animations", a) +
+                            ": expected times that increase, found two keys at " + brief(twice) +
+                            " s; the later of such keys is read as the next instant");
+      }
+      if (!to.changes() && twice < 0) continue;
       if (!retime_animation(a, to)) return false;
       any = true;
     }
@@ -80,6 +86,21 @@ class Retimer {
       begin = std::min(begin, known->second);
     }
     return std::isfinite(begin) ? begin : 0;
+  }
+
+  // The first time of a key that is not after the one before it, seconds; -1 if all times increase.
+  double first_repeated(size_t animation) const {
+    for (const GltfChannel& channel : document_.animations[animation].channels) {
+      if (channel.path == GltfPath::other) continue;
+      GltfValues times;
+      const GltfPart sampler =
+          root_.item("animations", animation).item("samplers", channel.sampler);
+      if (!read_times(accessor_of(sampler, "input"), times)) continue;
+      for (size_t i = 1; i < times.count; ++i) {
+        if (!(times.numbers[i] > times.numbers[i - 1])) return std::max(0.0f, times.numbers[i]);
+      }
+    }
+    return -1;
   }
 
   bool retime_animation(size_t animation, Retiming to) {

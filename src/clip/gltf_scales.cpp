@@ -160,6 +160,12 @@ int fill_clip(const GltfDocument& document, GltfAnimation& animation,
       if (!is_within_reach(pose.translations[j])) return std::max(joints.moving_channel(j), 0);
     }
   }
+  for (Joint& joint : clip.skeleton.joints) joint.unkeyed = true;
+  for (const GltfChannel& channel : animation.channels) {
+    const bool places = channel.path == GltfPath::rotation || channel.path == GltfPath::translation;
+    const int joint = document.nodes[channel.node].joint;
+    if (places && joint >= 0) clip.skeleton.joints[joint].unkeyed = false;
+  }
   for (size_t j = 0; j < clip.joints(); ++j) {
     Joint& joint = clip.skeleton.joints[j];
     joint.can_translate = joint.can_translate || joints.moving_channel(j) >= 0 || moves(clip, j);

@@ -55,6 +55,18 @@ double median_spacing(const std::vector<float>& times) {
   return *middle;
 }
 
+// The times of keys that are at different instants: of several at one time, the first.
+std::vector<float> without_repeats(const std::vector<float>& times) {
+  std::vector<float> out;
+  for (const float time : times) {
+    // No motion has more frames a second.
+    constexpr float kSameInstant = 2e-5f;
+    const bool repeats = !out.empty() && time - out.back() < kSameInstant + out.back() * 0x1p-22f;
+    if (!repeats) out.push_back(time);
+  }
+  return out;
+}
+
 // Seconds between frames that hit all of these keys; 0 if there is no such rate.
 double key_step(const std::vector<float>& times) {
   const double mean = (double(times.back()) - times.front()) / (times.size() - 1);
@@ -69,10 +81,12 @@ double key_step(const std::vector<float>& times) {
 }
 
 double frame_time_of(const GltfTrack* deciding) {
-  if (!deciding || deciding->times.size() < 2) return 1 / kUsualRate;
-  const double step = key_step(deciding->times);
+  const std::vector<float> times =
+      without_repeats(deciding ? deciding->times : std::vector<float>{});
+  if (times.size() < 2) return 1 / kUsualRate;
+  const double step = key_step(times);
   if (step == 0) {
-    return 1 / std::clamp(1 / median_spacing(deciding->times), kLowestRate, kHighestRate);
+    return 1 / std::clamp(1 / median_spacing(times), kLowestRate, kHighestRate);
   }
   return step * kSparseRate > 1 ? step / std::ceil(step * kLowestRate) : step;
 }

@@ -125,6 +125,7 @@ Result<std::unique_ptr<MotionFile>> parse_motion(std::string bytes, const std::s
                                                  const ReadOptions& options) {
   Result<const MotionFormat*> format = format_of(path, kFormats);
   if (!format) return format.error();
+  if (auto other = find_other_content(bytes, path)) return *other;
   return (*format)->parse(std::move(bytes), path, options);
 }
 

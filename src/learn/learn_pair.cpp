@@ -64,8 +64,8 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
   const std::vector<Joint>& b = styled.clip.skeleton.joints;
   const std::string where = neutral.name + " and " + styled.name + ": have different skeletons (";
   const std::string cure =
-      "); a pair needs joints of the same names and parents: leave the neutral clip out, or "
-      "retarget the styled clip onto it";
+      "); a pair needs the same joints of the body: leave the neutral clip out, or retarget the "
+      "styled clip onto it";
   if (a.size() != b.size()) {
     return Error{
         where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" + cure,
@@ -123,6 +123,14 @@ bool rest_alike(const LearnClip& neutral, const LearnClip& styled,
   return true;
 }
 
+// Whether both skeletons have the same human joints.
+bool map_alike(const LearnClip& neutral, const LearnClip& styled) {
+  for (int j = 0; j < kHumanJoints; ++j) {
+    if ((neutral.rig.joints()[j] < 0) != (styled.rig.joints()[j] < 0)) return false;
+  }
+  return true;
+}
+
 // The take of the styled motion, retargeted to the neutral skeleton.
 Result<Take> take_onto(const LearnClip& styled, const LearnClip& neutral) {
   Result<Retargeted> done = retarget(styled.clip, styled.rig, neutral.clip, neutral.rig);
@@ -157,11 +165,13 @@ void forget_twist(Take& take) {
 
 Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled) {
   const Result<std::vector<size_t>> matches = match_joints(neutral, styled);
-  if (!matches) return matches.error();
+  if (!matches && !map_alike(neutral, styled)) return matches.error();
   Result<Take> before = take_of(neutral);
   if (!before) return before.error();
   Result<Take> after = take_of(styled);
-  if (after && !rest_alike(neutral, styled, *matches)) after = take_onto(styled, neutral);
+  if (after && !(matches && rest_alike(neutral, styled, *matches))) {
+    after = take_onto(styled, neutral);
+  }
   if (!after) return after.error();
   const bool is_pose = neutral.clip.frames == 1;
   if (is_pose != (styled.clip.frames == 1)) {

@@ -29,9 +29,9 @@ struct LearnPair {
   std::optional<TwinFacts> twin = {};  // If the neutral motion is not from a clip.
 };
 
-// Two clips of one frame are a pair of poses. Both skeletons must have joints with the same names
-// and parents, in any order; joints above the hips may differ. If their rest poses differ, the
-// styled motion is retargeted to the neutral skeleton; bone lengths may always differ. Other
+// Two clips of one frame are a pair of poses. Both skeletons must have the same human joints.
+// Unless all their joints have the same names, parents and directions at rest, in any order and
+// apart from joints above the hips, the styled motion is retargeted to the neutral skeleton. Other
 // skeletons are rejected, and so are clips that are too short to learn from.
 Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled);
 // Without a neutral clip: uses what people in the bank do instead. Twist, the rotation of a limb

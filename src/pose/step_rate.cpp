@@ -44,6 +44,9 @@ constexpr double kImpossibleRate = 1.4;
 // Too slow: fewer steps than this, and the point is not much further off at 2.5 times the rate.
 constexpr double kSlowRate = 0.28, kSlowStep = 0.4, kSlowMiss = 0.036, kSlowTimes = 1.25;
 constexpr size_t kFastSteps = 4, kSlowSteps = 5;
+// So slow that two steps suffice, as in a short clip whose frames became seconds.
+constexpr double kStoppedRate = 0.08;
+constexpr size_t kStoppedSteps = 2;
 constexpr double kFaster = 2.5, kSlower = 0.4;
 
 // Shares of a body's mass by joint, those of both sides alike (after Winter's tables).
@@ -274,12 +277,14 @@ std::optional<std::string> doubtful_rate(const Clip& clip, const Rig& rig) {
   const Walk walk = read(clip, rig);
   if (walk.bodies.size() < 8 || !(walk.leg > 0)) return std::nullopt;
   const Steps steps = find_steps(walk, separations(clip, rig, walk));
-  if (steps.steps.size() < kFastSteps) return std::nullopt;
+  if (steps.steps.size() < kStoppedSteps) return std::nullopt;
   const double a_second = 1 / (steps.frames * clip.frame_time);
   const double rate = a_second * std::sqrt(walk.leg / kGravity);
-  const bool many =
-      (rate > kFastRate && steps.size > kFastStep) || (rate > kWildRate && steps.size > kWildStep);
-  const bool few = rate < kSlowRate && steps.size > kSlowStep && steps.steps.size() >= kSlowSteps;
+  const size_t count = steps.steps.size();
+  const bool many = count >= kFastSteps && ((rate > kFastRate && steps.size > kFastStep) ||
+                                            (rate > kWildRate && steps.size > kWildStep));
+  const bool few =
+      steps.size > kSlowStep && ((rate < kSlowRate && count >= kSlowSteps) || rate < kStoppedRate);
   if (!many && !few) return std::nullopt;
   const Balance balance(walk, steps, clip.frame_time);
   const auto now = balance.miss(1), other = balance.miss(many ? kSlower : kFaster);

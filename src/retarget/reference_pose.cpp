@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "pose/contacts.h"
@@ -70,7 +72,7 @@ class Finder {
  public:
   Finder(const Clip& clip, const Rig& rig) : clip_(clip), rig_(rig) {
     PosedRig reader(rig);
-    const Clip rest = rest_clip(clip.skeleton);
+    const Clip rest = rig.rest();
     reader.read(rest.pose(0), rest_);
     const int first = std::min(rig.first_frame(), clip.frames - 1);
     const int step = (clip.frames - first + kMaxFrames - 1) / kMaxFrames;
@@ -82,9 +84,9 @@ class Finder {
   }
 
   ReferencePose find() {
-    measure();
     turn_rest();
     out_.from_rest = stands();
+    measure();
     if (out_.from_rest) {
       take_rest();
     } else {
@@ -98,28 +100,56 @@ class Finder {
   }
 
  private:
-  void measure() {
-    const HumanPositions& joints = motion_.front().joints;
-    for (const Arm& arm : kArms) {
-      out_.arm += (length(joints[arm.lower] - joints[arm.upper]) +
-                   length(joints[arm.hand] - joints[arm.lower])) /
-                  2;
-    }
-    std::vector<float> heights;
+  // Of one arm and one leg, means of both sides.
+  static std::pair<float, float> limb_lengths(const HumanPositions& joints) {
+    const auto limb = [&](int upper, int lower, int end) {
+      return (length(joints[lower] - joints[upper]) + length(joints[end] - joints[lower])) / 2;
+    };
+    float arm = 0, leg = 0;
+    for (const Arm& of : kArms) arm += limb(of.upper, of.lower, of.hand);
     for (int f = 0; f < kFeet; ++f) {
-      out_.leg += (length(joints[index(kLowerLegs[f])] - joints[index(kUpperLegs[f])]) +
-                   length(joints[index(kAnkles[f])] - joints[index(kLowerLegs[f])])) /
-                  2;
+      leg += limb(index(kUpperLegs[f]), index(kLowerLegs[f]), index(kAnkles[f]));
     }
-    heights.reserve(motion_.size());
-    for (const BodyPose& body : motion_) heights.push_back(toes_height(body.joints));
+    return {arm, leg};
+  }
+
+  void measure() {
+    std::vector<float> legs, heights, hips_heights;
+    for (const BodyPose& body : motion_) {
+      legs.push_back(limb_lengths(body.joints).second);
+      heights.push_back(toes_height(body.joints));
+      hips_heights.push_back(body.joints[index(hips)].y);
+    }
+    std::tie(out_.arm, out_.leg) = limb_lengths(motion_.front().joints);
+    std::nth_element(legs.begin(), legs.begin() + static_cast<long>(legs.size() / 2), legs.end());
+    // A body that grows in its first frames has its size at rest, which the rig measures too.
+    constexpr float kStays = 0.01f;
+    const auto [arm, leg] = limb_lengths(rest_.joints);
+    if (std::abs(out_.leg - legs[legs.size() / 2]) > kStays * out_.leg && leg > 0) {
+      out_.arm = arm;
+      out_.leg = leg;
+    }
     const auto low = static_cast<long>(kFloorShare * static_cast<float>(heights.size() - 1));
     std::nth_element(heights.begin(), heights.begin() + low, heights.end());
-    out_.motion_toes = heights[low];
     const float plane = -rig_.floor();
     const float rest = toes_height(rest_.joints);
     const bool near_plane = std::abs(rest - plane) < kNearPlane * out_.leg;
-    out_.rest_toes = near_plane ? rest : clip_.frames > 1 ? out_.motion_toes : plane;
+    const float top = *std::max_element(hips_heights.begin(), hips_heights.end());
+    out_.motion_toes = out_.from_rest && near_plane
+                           ? rest
+                           : floor_of_motion(heights[low] - plane, top - plane) + plane;
+    out_.rest_toes = near_plane ? rest : clip_.frames > 1 ? heights[low] : plane;
+  }
+
+  // Where toes stand, above the file's plane, without a rest pose that shows it. lowest, top: the
+  // lowest toes and the highest hips of the motion, above that plane. The plane is the floor even
+  // if the motion never reaches it, as in a jump, or goes below it, downhill; but the lowest toes
+  // stand where they are near to it, or where the hips are at the plane.
+  float floor_of_motion(float lowest, float top) const {
+    constexpr float kStanding = 0.12f, kHipsAtPlane = 0.5f;
+    if (lowest > kStanding * out_.leg) return 0;
+    if (lowest > -kNearPlane * out_.leg || top < kHipsAtPlane * out_.leg) return lowest;
+    return 0;
   }
 
   // The rest pose, turned to face +z.

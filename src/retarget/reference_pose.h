@@ -18,8 +18,10 @@ struct ReferencePose {
   // Derived from the rest pose, which stands; otherwise from the motion.
   bool from_rest = false;
   float leg = 0, arm = 0;  // Length of a limb, mean of both sides, metres of the rig.
-  // Height of the toe joints on the floor, metres of the rig: at rest, if that pose stands near the
-  // plane y = 0, and at the lowest point of the motion; 0 for a motion of one frame.
+  // Height of the toe joints on the floor, metres of the rig, for the character that takes a motion
+  // and for the motion: those of a rest pose near the plane y = 0, if there is one. Otherwise a
+  // character stands where its motion's lowest toes are; but the floor of a motion is not there if
+  // they stay above that plane, or jumps would start on the ground.
   float rest_toes = 0, motion_toes = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/elementary.h"
 #include "clip/clip.h"
 #include "pose/contacts.h"
 #include "pose/changed_joints.h"
@@ -12,12 +13,16 @@
 #include "retarget/further_joints.h"
 #include "retarget/ground.h"
 #include "retarget/reference_pose.h"
+#include "retarget/root_joint.h"
+#include "retarget/same_skeleton.h"
 #include "rig/posed_rig.h"
 
 namespace panache {
 namespace {
 
 using enum HumanJoint;
+
+constexpr float kHalfTurn = 3.14159265f;
 
 class Retargeter {
  public:
@@ -28,14 +33,15 @@ class Retargeter {
         onto_rig_(onto),
         options_(options),
         from_(rig),
-        onto_(onto),
+        root_joint_(options.root ? find_root_joint(character, onto) : -1),
+        onto_(onto, root_joint_),
         look_(onto),
-        seen_(rest_clip(character.skeleton)),
+        seen_(onto.rest()),
         from_reference_(find_reference_pose(motion, rig)),
         onto_reference_(find_reference_pose(character, onto)),
         scale_(onto_reference_.leg / from_reference_.leg),
-        rest_(rest_clip(character.skeleton)),
-        world_(rest_clip(motion.skeleton)),
+        rest_(base_pose()),
+        world_(rig.rest()),
         further_(find_further_joints(motion.skeleton, rig, character.skeleton, onto)) {
     onto_.read(rest_.pose(0), body_);
     toes_at_rest_ = std::min(body_.joints[index(kToes[0])].y, body_.joints[index(kToes[1])].y);
@@ -47,6 +53,11 @@ class Retargeter {
   }
 
   Retargeted run() {
+    if (const auto same =
+            find_same_skeleton(motion_.skeleton, from_.rig(), character_.skeleton, onto_rig_)) {
+      // A root that only the character has carries the path.
+      if (root_joint_ < 0 || same->from[static_cast<size_t>(root_joint_)] >= 0) return copy(*same);
+    }
     std::vector<HumanPositions> joints;
     for (int f = first_; f < motion_.frames; ++f) {
       RotatedBodyPose body;
@@ -61,10 +72,62 @@ class Retargeter {
     Clip out{character_.skeleton, motion_.frame_time, 0, {}, {}};
     out.resize(static_cast<int>(frames_.size()));
     for (int f = 0; f < out.frames; ++f) write(frames_[f].change, f, out);
+    turn_front(out);
     return {std::move(out), std::move(contacts)};
   }
 
  private:
+  // The character at rest; or without a rest pose that stands, its other joints as they are on
+  // average in its motion.
+  Clip base_pose() const {
+    Clip base = onto_rig_.rest();
+    if (onto_reference_.from_rest || character_.frames < 2) return base;
+    for (size_t j = 0; j < character_.joints(); ++j) {
+      Quat sum = {0, 0, 0, 0};
+      Vec3d place;
+      for (int f = onto_rig_.first_frame(); f < character_.frames; ++f) {
+        const Quat q = character_.pose(f).rotations[j];
+        const float sign = dot(sum, q) < 0 ? -1.0f : 1.0f;
+        sum = {sum.x + sign * q.x, sum.y + sign * q.y, sum.z + sign * q.z, sum.w + sign * q.w};
+        place += character_.pose(f).translations[j].as<double>();
+      }
+      const auto& human = onto_rig_.joints();
+      if (std::find(human.begin(), human.end(), static_cast<int>(j)) != human.end()) continue;
+      if (character_.skeleton.joints[j].parent < 0) continue;
+      base.rotations[j] = normalized(sum);
+      base.translations[j] = (place / (character_.frames - onto_rig_.first_frame())).as<float>();
+    }
+    return base;
+  }
+
+  Retargeted copy(const SameSkeleton& same) {
+    std::vector<HumanPositions> joints;
+    Clip out{character_.skeleton, motion_.frame_time, 0, {}, {}};
+    out.resize(motion_.frames - first_);
+    for (int f = 0; f < out.frames; ++f) {
+      RotatedBodyPose body;
+      from_.read(motion_.pose(first_ + f), body);
+      joints.push_back(body.joints);
+      copy_pose(same, character_.skeleton, motion_.pose(first_ + f), out.pose(f));
+    }
+    return {std::move(out), detect_contacts(joints, 1 / motion_.frame_time)};
+  }
+
+  // VRM 0 faces -z and VRM 1 +z: between two of them, whose joints have roles, the body goes where
+  // the character faces.
+  void turn_front(Clip& out) const {
+    const auto is_vrm = [](const Skeleton& skeleton) {
+      return std::any_of(skeleton.joints.begin(), skeleton.joints.end(),
+                         [](const Joint& joint) { return !joint.role.empty(); });
+    };
+    if (!is_vrm(motion_.skeleton) || !is_vrm(character_.skeleton)) return;
+    BodyPose from, onto;
+    PosedRig(from_.rig()).read(from_.rig().rest().pose(0), from);
+    PosedRig(onto_rig_).read(onto_rig_.rest().pose(0), onto);
+    if (cosine(onto.facing - from.facing) > 0) return;
+    for (int f = 0; f < out.frames; ++f) onto_rig_.transform_root(kHalfTurn, {}, {}, out.pose(f));
+  }
+
   // The rotation of each joint of the motion relative to the T-pose. Spines differ between rigs:
   // the torso's direction follows joint positions, its twist the motion's joints.
   std::array<Quat, kHumanJoints> turns_of(const RotatedBodyPose& from) const {
@@ -190,7 +253,9 @@ class Retargeter {
   const Clip& character_;
   const Rig& onto_rig_;
   RetargetOptions options_;
-  PosedRig from_, onto_;
+  PosedRig from_;
+  int root_joint_;  // Of the character, or -1.
+  PosedRig onto_;
   PosedRig look_;  // Reads the written pose, into
   Clip seen_;
   ReferencePose from_reference_, onto_reference_;

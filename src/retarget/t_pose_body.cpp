@@ -14,8 +14,8 @@ namespace {
 using enum HumanJoint;
 
 // The rig's own joints at rest, world, metres.
-HumanPositions joints_at_rest(const Clip& clip, const Rig& rig) {
-  const Clip rest = rest_clip(clip.skeleton);
+HumanPositions joints_at_rest(const Rig& rig) {
+  const Clip rest = rig.rest();
   PosedRig reader(rig);
   BodyPose body;
   reader.read(rest.pose(0), body);
@@ -62,7 +62,7 @@ void add_finger(Skeleton& body, int hand, const Finger& finger, float size) {
 }  // namespace
 
 Clip t_pose_body(const Clip& clip, const Rig& rig) {
-  HumanPositions joints = joints_at_rest(clip, rig);
+  HumanPositions joints = joints_at_rest(rig);
   for (Vec3& p : joints) p *= rig.unit() / rig.scale();
   const auto length_of = [&](int joint) {
     return length(joints[joint] - joints[kHumanParent[joint]]);

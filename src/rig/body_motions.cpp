@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "clip/text_cursor.h"
+#include "rig/figures.h"
 #include "rig/joint_name.h"
 
 namespace panache {
@@ -36,7 +37,13 @@ BodyMotions find_moving(const MotionFile& file, const RigOptions& options) {
     if (!rig) continue;
     // All motions of a file have the same joints, and so the same humanoid.
     out.humanoid = true;
-    std::erase_if(out.clips, [&](int i) { return !moves_humanoid(file.clip(i).skeleton, *rig); });
+    // But where there are several figures, each motion may move another one.
+    const bool one = find_figures(file.clip(tried)).empty();
+    std::erase_if(out.clips, [&](int i) {
+      const Clip& clip = file.clip(i);
+      const Result<Rig> own = one ? rig : Rig::create(clip, options);
+      return !own || !moves_humanoid(clip.skeleton, *own);
+    });
     break;
   }
   return out;

@@ -112,19 +112,30 @@ class Calibrator {
     float leg = legs.front();
     const auto middle = legs.begin() + legs.size() / 2;
     std::nth_element(legs.begin(), middle, legs.end());
-    // If a body grows at the beginning or shrinks at the end, its size in between counts.
+    // If a body grows at the beginning or shrinks at the end, its size at rest counts; if that is
+    // none of its sizes, the usual one.
     constexpr float kStays = 0.01f;
-    if (std::abs(leg - *middle) > kStays * *middle) leg = *middle;
+    if (std::abs(leg - *middle) > kStays * *middle) {
+      const float rest = legs_at_rest();
+      const auto [least, most] = std::minmax_element(legs.begin(), legs.end());
+      leg = rest > (1 - kStays) * *least && rest < (1 + kStays) * *most ? rest : *middle;
+    }
     out_.scale = 2 * kProportions.leg / leg;
     if (!std::isfinite(out_.scale)) return Error{"the legs of the humanoid have no length"};
     return {};
   }
   float both_legs(int frame) const {
+    return both_legs([&](HumanJoint joint) { return file(frame, joint); });
+  }
+  float legs_at_rest() const {
+    return both_legs([&](HumanJoint joint) { return rest_.translations[joint_of_[index(joint)]]; });
+  }
+  template <class At>
+  float both_legs(At at) const {
     float leg = 0;
     for (auto [upper, lower, foot] : {std::array{left_upper_leg, left_lower_leg, left_foot},
                                       std::array{right_upper_leg, right_lower_leg, right_foot}}) {
-      leg += length(file(frame, upper) - file(frame, lower)) +
-             length(file(frame, lower) - file(frame, foot));
+      leg += length(at(upper) - at(lower)) + length(at(lower) - at(foot));
     }
     return leg;
   }
@@ -276,11 +287,16 @@ class Calibrator {
   }
 
   void find_floor() {
-    std::vector<float> heights(frames_.count());
+    std::vector<float> legs, heights;
+    for (int f = 0; f < frames_.count(); ++f) legs.push_back(both_legs(f));
+    // A body that grows stands nowhere yet.
+    constexpr float kWhole = 0.9f;
+    const float whole = kWhole * quantile(legs, kWhole);
     for (int f = 0; f < frames_.count(); ++f) {
+      if (legs[f] < whole) continue;
       const MappedJoints joints = mapped(f);
       const HumanPositions body = canonical_positions(joints.positions, out_.shape, joints.toes);
-      heights[f] = std::min(body[index(left_toes)].y, body[index(right_toes)].y);
+      heights.push_back(std::min(body[index(left_toes)].y, body[index(right_toes)].y));
     }
     const float last = static_cast<float>(heights.size() - 1);
     const float share = last > 0 ? std::min(kFloorFrames / last, 0.5f) : 0.0f;

@@ -12,7 +12,7 @@ constexpr Side kSides[] = {Side::left, Side::right};
 // Weights against odd lengths, in the units of limb_oddity(): of the plain order of the joints, of
 // the same with numbered pieces counted as joints, of a name such as "knee", and of two joints with
 // standard names.
-constexpr float kPlainOrder = 12, kAllPieces = 8, kNamed = 20, kOwnNames = 40;
+constexpr float kPlainOrder = 12, kAllPieces = 8, kNamedLimb = 20, kOwnNames = 40;
 
 bool is_plain_forearm(const JointName& name) { return is_forearm(name) && !is_twist(name); }
 
@@ -32,7 +32,7 @@ class LimbFinder {
       const JointName& lower = names_[limb.lower];
       const bool named = kind == LimbKind::arm ? is_forearm(lower) : is_shin(lower);
       const float odd =
-          limb_oddity(tree_, kind, std::max(branch, 0), limb) - trust - (named ? kNamed : 0);
+          limb_oddity(tree_, kind, std::max(branch, 0), limb) - trust - (named ? kNamedLimb : 0);
       if (odd < least) least = odd, best = limb;
     };
     for (const bool skip_pieces : {true, false}) {

@@ -22,11 +22,14 @@ bool is_finite_body(const BodyPose& body) {
 
 }  // namespace
 
-PosedRig::PosedRig(Rig rig)
+PosedRig::PosedRig(Rig rig, int ground_joint)
     : rig_(std::move(rig)),
+      ground_joint_(ground_joint),
       last_(rig_.shared_->first_body),
-      world_rotations_(rig_.joint_count()),
-      world_translations_(rig_.joint_count()) {}
+      world_rotations_(rig_.shared_->human_of.size()),
+      world_translations_(rig_.shared_->human_of.size()),
+      new_rotations_(rig_.shared_->order.size()),
+      new_translations_(rig_.shared_->order.size()) {}
 
 Quat PosedRig::world_rotation(int human_joint) const noexcept {
   const Rig::Shared& shared = *rig_.shared_;
@@ -37,7 +40,16 @@ Quat PosedRig::world_rotation(int human_joint) const noexcept {
 
 bool PosedRig::read(ConstPose pose, BodyPose& out) noexcept {
   const Rig::Shared& shared = *rig_.shared_;
-  world_pose(shared.skeleton, pose, {world_rotations_, world_translations_});
+  const size_t count = shared.skeleton.joints.size();
+  world_pose(
+      shared.skeleton, pose,
+      {std::span(world_rotations_).first(count), std::span(world_translations_).first(count)});
+  for (size_t i = 0; i < shared.added.size(); ++i) {
+    const Joint& joint = shared.added[i];
+    const Quat turn = world_rotations_[joint.parent];
+    world_rotations_[count + i] = turn;
+    world_translations_[count + i] = world_translations_[joint.parent] + rotate(turn, joint.offset);
+  }
   const ConstPose world = {world_rotations_, world_translations_};
   const MappedJoints mapped = mapped_joints(world, shared.mapping.joint_of, shared.calibration);
   out.joints = mapped.positions;
@@ -77,6 +89,7 @@ void PosedRig::write(ConstPose in, const BodyPose& body, const BodyChange& chang
   }
   write_rotations(in, deltas, out);
   write_translation(in, deltas, change, out);
+  if (!shared.order.empty()) write_followers(deltas, out);
 }
 
 Quat PosedRig::delta_of(const Deltas& deltas, int joint) const noexcept {
@@ -123,9 +136,43 @@ void PosedRig::write_translation(ConstPose in, const Deltas& deltas, const BodyC
   // The new rotation moves mid-hip about the hips; the hips compensate so that it stays.
   const Vec3 move = wanted - rotate_offset(delta_of(deltas, hips_joint), mid_hip - at(hips));
   if (move == Vec3{} || !is_finite(move)) return;
-  const int parent = shared.skeleton.joints[shared.moved_joint].parent;
-  const Quat world = parent < 0 ? Quat{} : world_rotations_[parent];
-  out.translations[shared.moved_joint] += rotate(conjugate(world), move);
+  const auto add = [&](int joint, Vec3 way) {
+    const int parent = shared.skeleton.joints[joint].parent;
+    const Quat world = parent < 0 ? Quat{} : world_rotations_[parent];
+    out.translations[joint] += rotate(conjugate(world), way);
+  };
+  if (ground_joint_ < 0) return add(shared.moved_joint, move);
+  const Vec3 up = rotate(conjugate(shared.calibration.y_up), Vec3{0, 1, 0});
+  const Vec3 on_ground = wanted - up * dot(up, wanted);
+  add(ground_joint_, on_ground);
+  add(shared.moved_joint, move - on_ground);
+}
+
+// A joint that follows another keeps its position on it; the other is new already, see
+// Rig::Shared::order.
+void PosedRig::write_followers(const Deltas& deltas, Pose out) noexcept {
+  const Rig::Shared& shared = *rig_.shared_;
+  // Below this distance, metres, rounding alone would change a file's numbers.
+  constexpr float kRounding = 2e-5f;
+  const size_t count = shared.skeleton.joints.size();
+  for (const int joint : shared.order) {
+    const auto j = static_cast<size_t>(joint);
+    const bool is_file = j < count;
+    const Joint& placed = is_file ? shared.skeleton.joints[j] : shared.added[j - count];
+    const Quat above = placed.parent < 0 ? Quat{} : new_rotations_[placed.parent];
+    const Vec3 origin = placed.parent < 0 ? Vec3{} : new_translations_[placed.parent];
+    new_rotations_[j] = is_file ? normalized(above * out.rotations[j]) : above;
+    new_translations_[j] = origin + rotate(above, is_file ? out.translations[j] : placed.offset);
+    const int to = shared.followed[j];
+    if (to < 0 || !is_file) continue;
+    const Vec3 wanted =
+        new_translations_[to] +
+        rotate(delta_of(deltas, to), world_translations_[j] - world_translations_[to]);
+    const Vec3 off = wanted - new_translations_[j];
+    if (!is_finite(off) || !(length(off) * shared.calibration.scale > kRounding)) continue;
+    out.translations[j] += rotate(conjugate(above), off);
+    new_translations_[j] = wanted;
+  }
 }
 
 }  // namespace panache

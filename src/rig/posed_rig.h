@@ -14,7 +14,10 @@ namespace panache {
 // neither allocate nor fail.
 class PosedRig {
  public:
-  explicit PosedRig(Rig rig);
+  // ground_joint: the joint above the hips that write() moves along the ground, -1 for the hips
+  // themselves.
+  PosedRig(Rig rig, int ground_joint);
+  explicit PosedRig(const Rig& rig) : PosedRig(rig, rig.ground_joint()) {}
 
   const Rig& rig() const noexcept { return rig_; }
 
@@ -31,8 +34,9 @@ class PosedRig {
   // Writes the user's pose with `change`. `in` and `body` are those of the last read(), whose
   // forward kinematics it reuses. If the change is the identity, `out` is identical to `in`. Joints
   // outside the humanoid, or without rotation channels, keep their local rotation and follow their
-  // parent. The middle between the upper legs turns in place and moves by the translation, if the
-  // hips or a joint above them can. `in` and `out` may be the same arrays.
+  // parent or the joint of the body that they go with. The middle between the upper legs turns in
+  // place and moves by the translation, if the hips or a joint above them can. `in` and `out` may
+  // be the same arrays.
   void write(ConstPose in, const BodyPose& body, const BodyChange& change, Pose out) noexcept;
 
   // Adds the arrays that read() and write() use.
@@ -53,12 +57,17 @@ class PosedRig {
   void write_rotations(ConstPose in, const Deltas& deltas, Pose out) noexcept;
   void write_translation(ConstPose in, const Deltas& deltas, const BodyChange& change,
                          Pose out) noexcept;
+  void write_followers(const Deltas& deltas, Pose out) noexcept;
 
   Rig rig_;
+  int ground_joint_;
   BodyPose last_;  // The last finite one.
 
   std::vector<Quat> world_rotations_;     // [joints], of the last read(), file axes.
   std::vector<Vec3> world_translations_;  // [joints], likewise, file units.
+  // The same of the last write(); empty if no joint follows another.
+  std::vector<Quat> new_rotations_;
+  std::vector<Vec3> new_translations_;
 };
 
 }  // namespace panache

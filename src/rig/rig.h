@@ -13,6 +13,7 @@
 #include "clip/clip.h"
 #include "rig/body_pose.h"
 #include "rig/calibration.h"
+#include "rig/followers.h"
 #include "rig/humanoid.h"
 #include "rig/mapping.h"
 
@@ -36,6 +37,9 @@ struct RigOptions {
   // The same by joint index, -1: the skeleton has none; for names that are not unique. Takes
   // precedence over a name.
   KnownJoints joint_places;
+  // The figure, of several in the skeleton, by its name in find_figures(); empty: the one that has
+  // the given joints, or that the clip moves.
+  std::string figure;
 };
 
 // The result of analysing a skeleton. Immutable; copies share it. A PosedRig converts poses of the
@@ -49,8 +53,8 @@ class Rig {
   static Result<Rig> create(const Clip& clip, const RigOptions& options = {});
 
   // skeleton joint of each human joint, -1 where the skeleton has none.
-  const std::array<int, kHumanJoints>& joints() const { return shared_->mapping.joint_of; }
-  size_t joint_count() const { return shared_->human_of.size(); }  // Joints of the skeleton.
+  const std::array<int, kHumanJoints>& joints() const { return shared_->file_joints; }
+  size_t joint_count() const { return shared_->skeleton.joints.size(); }  // Joints of the skeleton.
   // How each was found, for display ("by its name", "next joint above leftHand", "missing", ...).
   const std::array<std::string, kHumanJoints>& reasons() const { return shared_->mapping.reasons; }
   // All of the above in the order of the human joints, for display.
@@ -66,7 +70,16 @@ class Rig {
   int first_frame() const { return shared_->calibration.first_frame; }
   // Whether the hips, or a joint above them, can be moved.
   bool can_move() const { return shared_->moved_joint >= 0; }
+  // The skeleton at rest, in one frame. Only feet that do not hang on their shins may be elsewhere
+  // than in the file.
+  Clip rest() const { return rest_clip(shared_->skeleton); }
+  // The joint above the hips that carries the body's path over the ground in the clip; -1 if the
+  // hips do.
+  int ground_joint() const { return shared_->ground_joint; }
   const std::vector<std::string>& notes() const { return shared_->notes; }
+  // Those of them that say what the file's names do not: a choice of figure, sides, joints that
+  // follow the body or are missing.
+  const std::vector<std::string>& remarks() const { return shared_->remarks; }
 
   // Unit direction from the wrist to the fingertips in the hand's axes (those of BodyPose::hands);
   // zero if it is unknown. `side`: 0 left, 1 right.
@@ -81,17 +94,26 @@ class Rig {
   Rig() = default;
 
   struct Shared {
-    Skeleton skeleton;
-    Mapping mapping;
+    Skeleton skeleton;         // The file's, see rest().
+    std::vector<Joint> added;  // After those, fixed: they stand for missing ones (complete_body()).
+    Mapping mapping;           // To both.
+    std::array<int, kHumanJoints> file_joints;  // To the file's, -1 for others.
     Calibration calibration;
     float unit = 1;
-    std::vector<std::string> notes;
-    // Human joint of each skeleton joint that a change may rotate, or -1.
+    std::vector<std::string> notes, remarks;
+    // Human joint of each joint, added ones included, that a change may rotate, or -1.
     std::vector<int> human_of;
-    // The human joint whose change each skeleton joint gets or inherits, or -1.
+    // The human joint whose change each joint gets or inherits, or -1.
     std::vector<int> moved_by;
-    int moved_joint = -1;  // The skeleton joint that carries the translation, or -1.
-    BodyPose first_body;   // The clip's first finite pose.
+    int moved_joint = -1;   // The skeleton joint that carries the translation, or -1.
+    int ground_joint = -1;  // A joint above it that carries its part along the ground, or -1.
+    // The joint whose position each one keeps, which is not above it, or -1; and all joints, each
+    // after its parent and the one that it follows. Empty if none follows.
+    std::vector<int> followed, order;
+    BodyPose first_body;  // The clip's first finite pose.
+
+    bool leave_unkeyed_joints();
+    void find_movers(const Clip& clip);
   };
 
   std::shared_ptr<const Shared> shared_;

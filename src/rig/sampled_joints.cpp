@@ -25,6 +25,22 @@ SampledJoints::SampledJoints(const Clip& clip, int first, int end, int step,
   }
 }
 
+std::vector<std::vector<Vec3>> some_poses(const Clip& clip) {
+  constexpr int kMax = 15;
+  Clip world = rest_clip(clip.skeleton);
+  std::vector<std::vector<Vec3>> poses;
+  const auto add = [&](ConstPose pose) {
+    world_pose(clip.skeleton, pose, world.pose(0));
+    const std::vector<Vec3>& places = world.translations;
+    if (std::all_of(places.begin(), places.end(), [](Vec3 p) { return is_finite(p); }))
+      poses.push_back(places);
+  };
+  add(world.pose(0));
+  const int count = std::min(kMax, clip.frames);
+  for (int i = 0; i < count; ++i) add(clip.pose((2 * i + 1) * clip.frames / (2 * count)));
+  return poses;
+}
+
 float quantile(std::vector<float> values, float share) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());

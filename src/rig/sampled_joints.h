@@ -1,5 +1,5 @@
 #pragma once
-// Samples some joints of a clip, and computes quantiles. Private to the folder.
+// Samples poses of a clip, and computes quantiles. Private to the folder.
 
 #include <span>
 #include <vector>
@@ -28,6 +28,10 @@ class SampledJoints {
   std::vector<Quat> rotations_;
   std::vector<Vec3> translations_;
 };
+
+// The finite ones of the rest pose and a few poses of the motion: positions in world space, file
+// axes and units.
+std::vector<std::vector<Vec3>> some_poses(const Clip& clip);
 
 // The `share` quantile of the values, linear between neighbours; 0 if there are none.
 float quantile(std::vector<float> values, float share);

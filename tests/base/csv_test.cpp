@@ -35,6 +35,14 @@ TEST_F(Csv, columns_come_in_the_order_that_is_asked_for) {
   EXPECT_EQ(read("style,words\nold,bent\n")->columns, (Cells{"style", "words"}));
 }
 
+TEST_F(Csv, other_separators_are_named) {
+  EXPECT_TRUE(rejection("seconds;old\n0;0,5\n")
+                  .find(":1: cells are separated by semicolons; expected commas") !=
+              std::string::npos);
+  EXPECT_TRUE(rejection("seconds\told\n").find("separated by tabs") != std::string::npos);
+  EXPECT_EQ(read("path\na;b.bvh\n")->rows[0].values, Cells{"a;b.bvh"});
+}
+
 TEST_F(Csv, quoted_cells_hold_commas_line_ends_and_quotes) {
   const auto table = read("style,words\nold,\"bent, slow\"\nproud,\"says \"\"me\"\"\nloudly\"\n");
   ASSERT_TRUE(table.ok()) << table.error().message;

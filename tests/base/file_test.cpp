@@ -60,6 +60,24 @@ TEST_F(WriteFile, a_file_of_more_than_2_GB_is_rejected_before_it_is_read) {
             path("large") + ": is larger than 2 GB; expected a smaller file");
 }
 
+TEST_F(WriteFile, what_is_never_meant_is_named_with_its_cure) {
+  const auto message = [&](const std::string& bytes) {
+    write_raw("a.bvh", bytes);
+    const auto text = read_file(path("a.bvh"));
+    return text ? "(read)" : text.error().message.substr(path("").size());
+  };
+  EXPECT_EQ(message("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n"),
+            "a.bvh: is a pointer of Git LFS instead of the file; 'git lfs pull' fetches it");
+  const std::string utf16 =
+      "a.bvh: is text in UTF-16; expected UTF-8: save it so in an editor, or by 'iconv -f UTF-16 "
+      "-t UTF-8'";
+  EXPECT_EQ(message(std::string("\xff\xfeH\0I\0E\0R\0", 10)), utf16);
+  EXPECT_EQ(message(std::string("\xfe\xff\0H\0I\0E\0R", 10)), utf16);
+  // A model whose header has 65,279 bytes.
+  EXPECT_EQ(message(std::string("\xff\xfe\0\0\0\0\0\0{\"", 10)), "(read)");
+  EXPECT_EQ(message("\xef\xbb\xbfHIERARCHY"), "(read)");
+}
+
 TEST_F(WriteFile, what_may_never_end_is_not_read) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   fs::create_symlink("pipe", path("link"));

@@ -270,7 +270,7 @@ TEST(GltfError, sparse_accessors_that_are_no_whole) {
 }
 
 TEST(GltfError, numbers_that_are_no_motion) {
-  EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(4, 4, p.bin.substr(8, 4)); }),
+  EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(4, 4, p.bin.substr(12, 4)); }),
             "walk.glb: animations[0].samplers[0].input: expected times that increase, found time 2 "
             "not after the one before it");
   EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(16 + 16 + 4, 4, "\xff\xff\xff\xff"); }),

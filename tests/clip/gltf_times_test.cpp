@@ -6,6 +6,7 @@
 #include "gltf_checks.h"
 #include "make_character.h"
 #include "make_gltf.h"
+#include "odd_files.h"
 
 namespace panache {
 namespace {
@@ -97,6 +98,39 @@ TEST(GltfTimes, all_samplers_of_an_animation_are_moved_together_and_other_animat
     EXPECT_EQ(accessor_floats(out, samplers[s]["input"]).front(), 0.25f);
   }
   EXPECT_EQ(out.json["animations"][1], parts.json["animations"][1]);
+}
+
+TEST(GltfTimes, two_keys_at_one_time_are_read_one_after_the_other) {
+  const auto file = test::odd_file("two-keys-one-time.glb");
+  const std::string at =
+      ": animations[0]: expected times that increase, found two keys at 1.05 s; "
+      "the later of such keys is read as the next instant";
+  EXPECT_EQ(file->notes(), std::vector{test::odd_path("two-keys-one-time.glb") + at});
+  EXPECT_EQ(file->clip(0).frames, 22);
+  EXPECT_NEAR(file->clip(0).frame_time, 0.05, 1e-6);
+  // All keys twice, the first ones too.
+  GltfParts parts = test::character();
+  const std::vector<float> once = {0, 0.1f, 0.2f, 0.3f};
+  std::vector<float> times, numbers;
+  for (const float time : once) {
+    for (int i = 0; i < 2; ++i) {
+      times.push_back(time);
+      numbers.insert(numbers.end(), {time, 1, 0});
+    }
+  }
+  const size_t input = parts.add_bounded(times, "SCALAR", 1);
+  const size_t output = parts.add(numbers, "VEC3", 3);
+  Json& animation = parts.json["animations"][0];
+  animation["channels"] = {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}};
+  animation["samplers"] = {{{"input", input}, {"output", output}}};
+  const auto doubled = parse_gltf(test::to_glb(parts), "walk.glb");
+  ASSERT_TRUE(doubled.ok()) << doubled.error().message;
+  EXPECT_EQ((*doubled)->notes().size(), 1u);
+  const Clip& clip = (*doubled)->clip(0);
+  const auto joint = static_cast<size_t>(test::find_joint_named(clip, parts.json["nodes"][0]["name"]));
+  for (int f = 0; f < clip.frames; ++f) {
+    EXPECT_NEAR(clip.pose(f).translations[joint].x, f * clip.frame_time, 1e-4) << f;
+  }
 }
 
 TEST(GltfTimes, text_keeps_its_form_and_gets_the_new_keys_in_it) {

@@ -1,0 +1,160 @@
+#include "rig/figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clip/unique_name.h"
+#include "rig/joint_name.h"
+#include "rig/joint_words.h"
+#include "rig/sampled_joints.h"
+
+namespace panache {
+namespace {
+
+// A person has at least so many joints; anything smaller is a prop.
+constexpr int kFewestOfPerson = 11;
+
+class FigureFinder {
+ public:
+  FigureFinder(const Clip& clip, std::span<const JointPositions> poses)
+      : clip_(clip), poses_(poses), joints_(clip.skeleton.joints), size_(joints_.size(), 1) {
+    children_.resize(joints_.size());
+    limbs_.resize(joints_.size());
+    for (size_t j = joints_.size(); j-- > 0;) {
+      note_limbs(static_cast<int>(j));
+      const int parent = joints_[j].parent;
+      if (parent < 0) continue;
+      size_[parent] += size_[j];
+      limbs_[parent] |= limbs_[j];
+      children_[parent].push_back(static_cast<int>(j));
+    }
+    std::vector<int> roots;
+    for (size_t j = joints_.size(); j-- > 0;) {
+      if (joints_[j].parent < 0) roots.push_back(static_cast<int>(j));
+    }
+    descend(roots, -1);
+    if (found_.size() < 2) return;
+    std::sort(found_.begin(), found_.end());
+    drop_companions();
+    std::erase_if(found_,
+                  [&](int root) { return !figure_joints(clip.skeleton, root).map(poses, {}); });
+  }
+
+  std::vector<Figure> figures() const {
+    if (found_.size() < 2) return {};
+    std::vector<Figure> out;
+    TakenNames taken;
+    for (const int root : found_) {
+      bool moves = false;
+      for (size_t j = 0; j < joints_.size(); ++j) {
+        moves = moves || (is_below(static_cast<int>(j), root) && !joints_[j].still);
+      }
+      out.push_back({root, unique_name(joints_[root].name, taken), moves});
+    }
+    return out;
+  }
+
+ private:
+  // A bit per limb that a name below a joint tells.
+  void note_limbs(int joint) {
+    const Joint& named = joints_[joint];
+    const JointName name = parse_joint_name(named.role.empty() ? named.name : named.role);
+    if (name.side == Side::none || is_near(name)) return;
+    const int side = name.side == Side::left ? 1 : 2;
+    if (is_hand(name) || is_forearm(name)) limbs_[joint] |= side;
+    if (is_foot(name) || is_shin(name)) limbs_[joint] |= 4 * side;
+  }
+  bool is_person(int joint) const { return size_[joint] >= kFewestOfPerson && limbs_[joint] == 15; }
+
+  // children: of the joint `top` or below it, on a path without another figure.
+  void descend(const std::vector<int>& children, int top) {
+    std::vector<int> persons;
+    for (const int child : children) {
+      if (is_person(child)) persons.push_back(child);
+    }
+    if (persons.empty()) {
+      if (top >= 0) found_.push_back(top);
+      return;
+    }
+    for (const int person : persons) {
+      descend(children_[person], persons.size() > 1 || top < 0 ? person : top);
+    }
+  }
+
+  bool is_below(int joint, int root) const {
+    while (joint > root) joint = joints_[joint].parent;
+    return joint == root;
+  }
+
+  // Leaves out figures that stay with one before them: clothes, or a copy that deforms the mesh.
+  void drop_companions() {
+    std::vector<int> kept;
+    for (const int root : found_) {
+      const bool goes_along = std::any_of(kept.begin(), kept.end(),
+                                          [&](int other) { return stay_together(other, root); });
+      if (!goes_along) kept.push_back(root);
+    }
+    found_ = kept;
+  }
+  bool stay_together(int a, int b) const {
+    constexpr size_t kCompared = 40;
+    constexpr float kTogether = 0.05f;  // Mean distance to the nearest joint, of the body's size.
+    const std::vector<int> first = some_joints(a, joints_.size()),
+                           second = some_joints(b, kCompared);
+    for (const JointPositions& pose : poses_) {
+      float sum = 0, size = 0;
+      for (const int joint : second) {
+        float nearest = INFINITY;
+        for (const int other : first)
+          nearest = std::min(nearest, length(pose[joint] - pose[other]));
+        sum += nearest;
+        size = std::max(size, length(pose[joint] - pose[second.front()]));
+      }
+      if (!(sum / static_cast<float>(second.size()) <= kTogether * size)) return false;
+    }
+    return true;
+  }
+  // At most `most` joints of the figure, evenly spread, without its root.
+  std::vector<int> some_joints(int root, size_t most) const {
+    std::vector<int> all;
+    for (size_t j = 0; j < joints_.size(); ++j) {
+      const int joint = static_cast<int>(j);
+      if (joint != root && is_below(joint, root)) all.push_back(joint);
+    }
+    std::vector<int> some;
+    const size_t count = std::min(most, all.size());
+    for (size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+    return some;
+  }
+
+  const Clip& clip_;
+  std::span<const JointPositions> poses_;
+  const std::vector<Joint>& joints_;
+  std::vector<int> size_;   // [joints] with those below.
+  std::vector<int> limbs_;  // [joints] named limbs, with those below.
+  std::vector<std::vector<int>> children_;
+  std::vector<int> found_;
+};
+
+}  // namespace
+
+JointSubset figure_joints(const Skeleton& skeleton, int root) {
+  const std::vector<Joint>& joints = skeleton.joints;
+  std::vector<int> parents;
+  std::vector<char> taken;
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const int parent = joints[j].parent;
+    parents.push_back(parent);
+    taken.push_back(static_cast<int>(j) == root || (parent >= root && taken[parent]));
+  }
+  for (int up = joints[root].parent; up >= 0; up = joints[up].parent) taken[up] = 1;
+  return {skeleton, parents, taken};
+}
+
+std::vector<Figure> find_figures(const Clip& clip, std::span<const JointPositions> poses) {
+  return FigureFinder(clip, poses).figures();
+}
+
+std::vector<Figure> find_figures(const Clip& clip) { return find_figures(clip, some_poses(clip)); }
+
+}  // namespace panache
