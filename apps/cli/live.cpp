@@ -17,6 +17,7 @@
 #include "model_path.h"
 #include "outputs.h"
 #include "page_server.h"
+#include "sides.h"
 #include "style_options.h"
 #include "stop_signal.h"
 #include "strengths.h"
@@ -31,7 +32,7 @@ constexpr const char* kTrackerPort = "39539";
 
 struct Options {
   std::string in = kTrackerPort, out = "39540";
-  std::vector<std::string> styles;
+  std::vector<std::string> styles, sides;
   std::string model, record;
   panache::LiveOptions time;
   ShapeFlags shape;
@@ -152,6 +153,7 @@ int live(const Options& options) {
   const std::string path = need(find_model(options.model));
   const std::shared_ptr<const Model> model = need(Model::load(path));
   const std::vector<float> strengths = read_styles(options.styles, *model);
+  how.stylizer.sides = need(parse_sides(options.sides, *model), kBadUsage);
   const std::optional<Removal> removal = read_removal(options.removal);
   if (removal) how.remover = removal->remover;
   if (auto good = LiveStylizer::check(*model, options.time); !good) {
@@ -215,6 +217,7 @@ void add_live(CLI::App& app, int& exit_code) {
              "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
              "above 1 exaggerates (-4 to 4). One --style per style")
       ->allow_extra_args(false);
+  add_side_option(*verb, options->sides);
   add_removal_options(*verb, options->removal);
   add_shape_options(*verb, options->shape);
   add_option(*verb, "--model FILE", options->model,
@@ -241,8 +244,9 @@ void add_live(CLI::App& app, int& exit_code) {
   verb->add_flag("--force", options->force, "Overwrite the recording");
   verb->add_flag("--quiet", options->quiet, "No statistics every second");
   verb->footer(
-      "While it runs, the OSC messages '/panache/style NAME STRENGTH' and '/panache/reset' to\n"
-      "the same port change a strength and reset what the styles added to the root motion.\n\n"
+      "While it runs, the OSC messages '/panache/style NAME STRENGTH', '/panache/side NAME SIDE'\n"
+      "and '/panache/reset' to the same port change a strength and a side, and reset what the\n"
+      "styles added to the root motion.\n\n"
       "Examples:\n"
       "  panache live --style old=1\n"
       "  panache live --vmc-in 39539 --vmc-out 192.168.1.20:39540 --record show.bvh");

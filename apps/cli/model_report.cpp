@@ -27,21 +27,24 @@ std::string describe_data(const std::map<std::string, std::string>& metadata) {
   return "  trained on   " + stated(data) + "\n" + "  data licence " + stated(licence) + "\n";
 }
 
-// "gestures: head nods, 1.2 s; dip, 0.8 s"; empty if there are none.
-std::string list_gestures(std::span<const std::string> gestures) {
+// "gestures, 0.2 a second: nods, 1.2 s; ducks, 0.8 s"; empty if there are none.
+std::string list_gestures(std::span<const std::string> gestures, const std::string& rate) {
   std::string text;
-  for (const std::string& name : gestures) text += (text.empty() ? "gestures: " : "; ") + name;
-  return text;
+  for (const std::string& name : gestures) text += (text.empty() ? ": " : "; ") + name;
+  if (text.empty()) return "";
+  return "gestures" + (rate.empty() ? "" : ", " + rate + " a second") + text;
 }
 
-// One line for the style, with the description in column `width`; below it the style's sources and
-// gestures.
+// One line for the style, with the description in column `width`; below it the style's sources,
+// side and gestures.
 std::string describe(const StyleInfo& style, std::span<const std::string> gestures, size_t width) {
   const std::string from = style.origin.empty() ? "" : " from " + style.origin;
   const std::string origin = style.learnt ? "learnt" + from : "";
   std::string text;
   std::string name = style.name;
-  for (const std::string& given : {style.description, origin, list_gestures(gestures)}) {
+  const std::string side = style.side.empty() ? "" : "side: " + style.side;
+  for (const std::string& given :
+       {style.description, origin, side, list_gestures(gestures, style.gesture_rate)}) {
     if (given.empty()) continue;
     text += "  " + padded(name, width) + given + "\n";
     name.clear();
@@ -142,13 +145,16 @@ Result<LoadedStyle> load_style(const std::string& path) {
   if (!file) return file.error();
   Result<StyleInfo> info = read_style_info(*file, path);
   if (!info) return info.error();
-  std::vector<std::string> gestures;
+  std::vector<Gesture> gestures;
   for (size_t k = 0; file->tensors.contains(gesture_key(k)); ++k) {
     Result<Gesture> gesture = Gesture::read(file->tensors[gesture_key(k)], gesture_key(k), path);
     if (!gesture) return gesture.error();
-    gestures.push_back(gesture->name());
+    gestures.push_back(*std::move(gesture));
   }
-  return LoadedStyle{path, *std::move(info), std::move(gestures), *std::move(file), bytes->size()};
+  name_gestures(gestures);
+  LoadedStyle style{path, *std::move(info), {}, *std::move(file), bytes->size()};
+  for (const Gesture& gesture : gestures) style.gestures.push_back(gesture.name());
+  return style;
 }
 
 std::string describe(const LoadedModel& loaded) {
@@ -184,8 +190,10 @@ Json to_json(const LoadedModel& loaded) {
   for (const StyleInfo& style : model.styles()) {
     styles.push_back({{"name", style.name},
                       {"gestures", gestures_of(model, &style - model.styles().data())},
+                      {"gesture_rate", style.gesture_rate},
                       {"description", style.description},
                       {"group", style.group},
+                      {"side", style.side},
                       {"learnt", style.learnt},
                       {"origin", style.origin},
                       {"source", style.source},
@@ -217,7 +225,9 @@ Json to_json(const LoadedStyle& loaded) {
           {"name", loaded.info.name},
           {"description", loaded.info.description},
           {"group", loaded.info.group},
+          {"side", loaded.info.side},
           {"gestures", loaded.gestures},
+          {"gesture_rate", loaded.info.gesture_rate},
           {"learnt", loaded.info.learnt},
           {"origin", loaded.info.origin},
           {"source", loaded.info.source},

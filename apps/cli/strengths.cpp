@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
-#include <string_view>
 
 #include <fast_float/fast_float.h>
 
@@ -18,16 +16,6 @@ namespace panache::cli {
 namespace {
 
 constexpr char kExpectedStrength[] = "expected a strength from -4 to 4";
-
-// `text` as a finite number; none if other characters follow.
-std::optional<double> parse_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0;
-  const char *begin = text.data(), *end = begin + text.size();
-  const auto [stop, failure] = fast_float::from_chars(begin, end, value);
-  if (failure != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 std::optional<float> parse_strength(std::string_view text) {
   const std::optional<double> value = parse_number(text);
@@ -141,6 +129,15 @@ Result<StrengthColumns> read_columns(const CsvTable& table, const std::string& w
 }
 
 }  // namespace
+
+std::optional<double> parse_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const char *begin = text.data(), *end = begin + text.size();
+  const auto [stop, failure] = fast_float::from_chars(begin, end, value);
+  if (failure != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
 
 Error missing_style(const std::vector<std::string>& files, const Model& model) {
   for (const std::string& file : files) {

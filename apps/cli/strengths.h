@@ -1,7 +1,9 @@
 #pragma once
 // The requested styles and their strengths, from the command line or a table.
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -12,6 +14,9 @@ namespace panache::cli {
 
 // The stylizer's range of strengths.
 inline constexpr float kLowestStrength = -4, kHighestStrength = 4;
+
+// `text` as a finite number; none if other characters follow.
+std::optional<double> parse_number(std::string_view text);
 
 // A strength track whose times may be relative to a clip that is not known yet.
 struct StrengthWish {

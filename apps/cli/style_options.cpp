@@ -43,9 +43,9 @@ void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
              "One --region per\nregion")
       ->allow_extra_args(false);
   add_option(verb, "--gestures RATE", flags.gestures,
-             "Gestures of the styles, thrown in at random: so many per\nsecond, 0 to 10, such as "
-             "0.2; default: 0. panache styles\nlists them")
-      ->check(in_range(0, static_cast<double>(GesturePlayer::kMaxRate)));
+             "How often the styles make their gestures: 1 as often as\nthe performers (the "
+             "default), 0 never, up to 10 times as\noften. panache styles lists them")
+      ->check(in_range(0, static_cast<double>(GesturePlayer::kMaxOften)));
 }
 
 Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {

@@ -19,7 +19,7 @@ struct ShapeFlags {
   Shape shape;                       // All except regions and timing.
   std::string timing = "steps";      // As typed.
   std::vector<std::string> regions;  // As typed: "legs=0.5".
-  float gestures = 0;                // Per second, at random times.
+  float gestures = 1;                // See StylizerOptions::gesture_rate.
 };
 
 // Gives `verb` the five options; `flags` must outlive it.

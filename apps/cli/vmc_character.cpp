@@ -29,6 +29,13 @@ bool same_bits(const T& a, const T& b) {
 
 }  // namespace
 
+void VmcCharacter::set_side(int style, float side) {
+  std::vector<float>& sides = how_.options.stylizer.sides;  // Of a stylizer to come.
+  sides.resize(how_.model->styles().size(), 1.0f);
+  sides[static_cast<size_t>(style)] = side;
+  if (stylizer_) stylizer_->stylizer().set_side(style, side);
+}
+
 void VmcCharacter::reset() noexcept {
   if (!stylizer_) return;
   stylizer_->reset();

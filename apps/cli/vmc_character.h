@@ -47,6 +47,8 @@ class VmcCharacter {
   void end_late_frame(double now, std::span<const float> strengths);
   // Ends the current frame, even if it is incomplete.
   void end_frame(std::span<const float> strengths);
+  // See Stylizer::set_side().
+  void set_side(int style, float side);
   // Forgets the motion so far, and with it the style's changes to the root motion.
   void reset() noexcept;
 

@@ -11,6 +11,7 @@
 
 #include <lo/lo.h>
 
+#include "messages.h"
 #include "vmc_bones.h"
 #include "vmc_coordinates.h"
 
@@ -42,10 +43,10 @@ void put_floats(std::span<char> bytes, size_t at, std::initializer_list<float> v
 // OSC pads strings with one to four zeros.
 size_t padded(size_t length) { return length / 4 * 4 + 4; }
 
-// The first argument of a message, a string. An lo_arg is only aligned as the message is, so it
-// must not be accessed as a union.
-std::string_view string_at(lo_arg** arguments) {
-  return reinterpret_cast<const char*>(arguments[0]);
+// An argument of a message, a string; the first by default. An lo_arg is only aligned as the
+// message is, so it must not be accessed as a union.
+std::string_view string_at(lo_arg** arguments, size_t index = 0) {
+  return reinterpret_cast<const char*>(arguments[index]);
 }
 
 // Reads the message's name and values if it is a bone message.
@@ -80,6 +81,15 @@ VmcMessage read_message(std::span<const char> bytes, size_t begin) {
     out.kind = VmcMessage::frame_end;
   } else if (path == "/panache/reset") {
     out.kind = VmcMessage::reset;
+  } else if (path == "/panache/side" && types == "ss") {
+    out.kind = VmcMessage::side;
+    out.name = string_at(arguments);
+    out.side_text = string_at(arguments, 1);
+  } else if (path == "/panache/side" && (types == "sf" || types == "si" || types == "sd")) {
+    out.kind = VmcMessage::side;
+    out.name = string_at(arguments);
+    out.side_text =
+        brief(static_cast<double>(lo_hires_val(static_cast<lo_type>(types[1]), arguments[1])));
   } else if (path == "/panache/style" && (types == "sf" || types == "si" || types == "sd")) {
     out.kind = VmcMessage::style;
     out.name = string_at(arguments);

@@ -17,16 +17,18 @@ struct VmcMessage {
     bone,       // The transform of a bone or the root.
     frame_end,  // /VMC/Ext/OK and /VMC/Ext/T.
     style,      // /panache/style NAME STRENGTH
+    side,       // /panache/side NAME SIDE
     reset,      // /panache/reset
     other,      // Anything else, and messages with these names but other arguments.
   };
   Kind kind = other;
-  int bone_index = -1;  // See vmc_bones.h.
-  Vec3 position;        // Relative to the parent, metres, Panache's axes.
-  Quat rotation;        // Relative to the parent, Panache's axes.
-  size_t place = 0;     // Byte offset of a bone's seven floats in the datagram.
-  std::string name;     // Style name.
-  double strength = 0;  // Style strength, not range-checked.
+  int bone_index = -1;    // See vmc_bones.h.
+  Vec3 position;          // Relative to the parent, metres, Panache's axes.
+  Quat rotation;          // Relative to the parent, Panache's axes.
+  size_t place = 0;       // Byte offset of a bone's seven floats in the datagram.
+  std::string name;       // Style name.
+  double strength = 0;    // Style strength, not range-checked.
+  std::string side_text;  // A style's side, a word or a number, not checked.
 };
 
 // The messages of a datagram in order, with bundles unpacked; nullopt if it is not OSC.

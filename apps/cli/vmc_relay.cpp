@@ -8,6 +8,7 @@
 
 #include "clip/text_cursor.h"
 #include "messages.h"
+#include "sides.h"
 #include "strengths.h"
 
 namespace panache::cli {
@@ -18,7 +19,8 @@ constexpr int kWaitMilliseconds = 10;
 constexpr int kMaxAtOnce = 64;
 
 bool is_command(const VmcMessage& message) {
-  return message.kind == VmcMessage::style || message.kind == VmcMessage::reset;
+  using enum VmcMessage::Kind;
+  return message.kind == style || message.kind == VmcMessage::side || message.kind == reset;
 }
 
 }  // namespace
@@ -96,6 +98,7 @@ void VmcRelay::apply_command(const VmcMessage& message) {
   if (message.kind == VmcMessage::reset) {
     for (Sender& sender : senders_) sender.character.reset();
   }
+  if (message.kind == VmcMessage::side) apply_side(message);
   if (message.kind != VmcMessage::style) return;
   const Result<int> style = how_.model->find_style_by_any_name(message.name);
   const double strength = message.strength;
@@ -107,6 +110,20 @@ void VmcRelay::apply_command(const VmcMessage& message) {
   } else {
     strengths_[static_cast<size_t>(*style)] = static_cast<float>(strength);
   }
+}
+
+void VmcRelay::apply_side(const VmcMessage& message) {
+  const Result<int> style = how_.model->find_style_by_any_name(message.name);
+  const Result<float> side =
+      style ? read_side(*how_.model, *style, message.side_text) : Result<float>(style.error());
+  if (!side) {
+    note_ = with_hint(located("/panache/side " + message.name, side.error()));
+    return;
+  }
+  std::vector<float>& sides = how_.options.stylizer.sides;
+  sides.resize(how_.model->styles().size(), 1.0f);
+  sides[static_cast<size_t>(*style)] = *side;
+  for (Sender& sender : senders_) sender.character.set_side(*style, *side);
 }
 
 VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {

@@ -63,6 +63,7 @@ class VmcRelay {
 
   void take(Datagram datagram);
   void apply_command(const VmcMessage& message);
+  void apply_side(const VmcMessage& message);
   // Null if the sender is new and `meet` is false.
   Sender* sender_of(const Datagram& datagram, bool meet);
   // Sends all held datagrams of a sender, even of an incomplete frame.

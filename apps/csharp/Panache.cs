@@ -47,7 +47,17 @@ public sealed class Model : IDisposable {
   public IReadOnlyList<string> Styles { get; }
   /// The group of each style, "moods"; "" for learnt styles, and in models without groups.
   public IReadOnlyList<string> Groups { get; }
-  /// The gestures of a style, "head turns left, 1.2 s", for Character.Trigger(); often empty.
+  /// The side that each style was captured on, as one sees it, "right leg"; "" if the model does not
+  /// say.
+  public IReadOnlyList<string> Sides { get; }
+  /// The side of a style, for Character.SetSide(), that a word names: "captured", "mirrored" and, if
+  /// Sides says which was captured, "left" and "right". Throws for other words.
+  public float FindSide(string style, string word) {
+    Native.Check(Native.panache_model_find_side(Handle, FindStyle(style), Native.Utf8(word),
+                                                out float side));
+    return side;
+  }
+  /// The gestures of a style, "glances left, 1.2 s", for Character.Trigger(); often empty.
   public IReadOnlyList<string> Gestures(string style) {
     int place = FindStyle(style);
     var names = new List<string>();
@@ -63,12 +73,15 @@ public sealed class Model : IDisposable {
     Handle = new Handle(model, Native.panache_model_destroy);
     var styles = new List<string>();
     var groups = new List<string>();
+    var sides = new List<string>();
     for (int i = 0; i < Native.panache_model_style_count(Handle); ++i) {
       styles.Add(Native.Text(Native.panache_model_style_name(Handle, i)));
       groups.Add(Native.Text(Native.panache_model_style_group(Handle, i)));
+      sides.Add(Native.Text(Native.panache_model_style_side(Handle, i)));
     }
     Styles = styles;
     Groups = groups;
+    Sides = sides;
   }
   public static Model Load(string path) => new Model(System.IO.File.ReadAllBytes(path));
   /// The index of a style, by its name or another word for it; throws if the model has none.
@@ -162,7 +175,9 @@ public sealed class CharacterOptions {
   /// A model that removes styles, for Character.SetRemoved(); it must outlive the creation of the
   /// character.
   public void UseRemover(Model model) => remover = model.Handle.DangerousGetHandle();
-  public float GestureRate = 0;  // Random gestures of the active styles per second, 0 to 10.
+  // How often the active styles play their gestures, at random: 1 as often as the performers did, 0
+  // not at all, up to 10 times as often.
+  public float GestureRate = 1;
   public uint GestureSeed = 0;   // Characters with different seeds gesture at different times.
 }
 
@@ -215,6 +230,11 @@ public sealed class Character : IDisposable {
   /// 0 is off, 1 as captured, above 1 exaggerates; -4 to 4, eased over a few frames.
   public void SetStrength(string style, float strength) =>
       Native.panache_character_set_strength(handle, model.FindStyle(style), strength);
+  /// 1 is as captured, -1 mirrored, 0 the mean of both; eased.
+  public void SetSide(string style, float side) =>
+      Native.panache_character_set_side(handle, model.FindStyle(style), side);
+  /// The side that a word of Model.FindSide() names.
+  public void SetSide(string style, string word) => SetSide(style, model.FindSide(style, word));
   /// Removes a style from the input: its index in the model of UseRemover(), or -1 for none.
   public void SetRemoved(int style) =>
       Native.panache_character_set_removed(handle, style);
@@ -227,7 +247,7 @@ public sealed class Character : IDisposable {
   }
   public void SetShape(Shape shape) =>
       Native.Check(Native.panache_character_set_shape(handle, shape));
-  /// Forgets the motion so far; keeps the strengths.
+  /// Forgets the motion so far; keeps strengths and sides.
   public void Reset() => Native.panache_character_reset(handle);
   public Report Report() {
     var report = new Report();
@@ -501,6 +521,11 @@ internal static class Native {
   [DllImport(Library)]
   internal static extern IntPtr panache_model_style_group(Handle model, int style);
   [DllImport(Library)]
+  internal static extern IntPtr panache_model_style_side(Handle model, int style);
+  [DllImport(Library)]
+  internal static extern int panache_model_find_side(Handle model, int style, byte[] word,
+                                                     out float side);
+  [DllImport(Library)]
   internal static extern int panache_model_gesture_count(Handle model, int style);
   [DllImport(Library)]
   internal static extern IntPtr panache_model_gesture_name(Handle model, int style, int gesture);
@@ -524,6 +549,8 @@ internal static class Native {
   [DllImport(Library)]
   internal static extern void panache_character_set_strength(Handle character, int style,
                                                              float strength);
+  [DllImport(Library)]
+  internal static extern void panache_character_set_side(Handle character, int style, float side);
   [DllImport(Library)]
   internal static extern int panache_character_trigger(Handle character, int style, int gesture);
   [DllImport(Library)]

@@ -133,11 +133,20 @@ PANACHE_API const char* panache_model_style_name(const panache_model* model, int
 /* The group that a style is listed under ("moods"), valid as long as the model; "" if it has no
  * group (learnt styles), NULL if the index is out of range. */
 PANACHE_API const char* panache_model_style_group(const panache_model* model, int32_t style);
-/* Number of gestures of a style, short movements that it is known by ("head turns left, 1.2 s");
+/* The side that a style was captured on, as one sees it ("right leg", "to the left"), valid as long
+ * as the model. It has the word left or right in it once; with the other one it says what is seen of
+ * the mirrored style. "" if the model does not say, NULL if the index is out of range. */
+PANACHE_API const char* panache_model_style_side(const panache_model* model, int32_t style);
+/* The side of a style, for panache_character_set_side(), that a word names: "captured", "mirrored",
+ * and, if panache_model_style_side() has one, "left" or "right". Fails with PANACHE_BAD_ARGUMENT for
+ * another word, and if the model's styles have no sides (recipe smith2019). */
+PANACHE_API panache_status panache_model_find_side(const panache_model* model, int32_t style,
+                                                   const char* word, float* side);
+/* Number of gestures of a style, short movements that it is known by ("glances left, 1.2 s");
  * most styles have none. 0 if the index is out of range. */
 PANACHE_API int32_t panache_model_gesture_count(const panache_model* model, int32_t style);
-/* What moves most in a gesture and how long, valid as long as the model; NULL if an index is out of
- * range. */
+/* What a gesture does and how long, different for all of a style; valid as long as the model. NULL
+ * if an index is out of range. */
 PANACHE_API const char* panache_model_gesture_name(const panache_model* model, int32_t style,
                                                    int32_t gesture);
 /* The index of the style with this name, or else the first that other words for it ("elderly" for
@@ -223,13 +232,14 @@ typedef struct panache_character_options {
   double max_speed;
   /* A model that takes styles off, for panache_character_set_removed(); NULL: none. */
   const panache_model* remover;
-  /* Gestures of the active styles at random, per second: 0 to 10. Characters with different seeds
-   * play them at different times. */
+  /* How often the active styles play their gestures, at random: 1 as often as the performers did, 0
+   * not at all (as for older headers), up to 10 times as often. Characters with different seeds play
+   * them at different times. */
   float gesture_rate;
   uint32_t gesture_seed;
 } panache_character_options;
 #define PANACHE_CHARACTER_OPTIONS \
-  { sizeof(panache_character_options), 0.15f, 0.04f, 1, 1, 0, 0, 0, 15, NULL, 0, 0 }
+  { sizeof(panache_character_options), 0.15f, 0.04f, 1, 1, 0, 0, 0, 15, NULL, 1, 0 }
 
 /* `options` may be NULL. */
 PANACHE_API panache_status panache_character_create(const panache_model* model,
@@ -244,6 +254,13 @@ PANACHE_API void panache_character_destroy(panache_character* character);
  * finite are ignored. */
 PANACHE_API void panache_character_set_strength(panache_character* character, int32_t style,
                                                 float strength);
+
+/* Sets the side of a style: 1 as captured, as at first; -1 its mirror image (a limp changes legs); 0
+ * the mean of both. Clamped to -1 to 1, and eased in as strengths are. Between -1 and 1 a step costs
+ * a second evaluation of the networks. An index out of range, sides that are not finite, and all
+ * sides in models of recipe smith2019 are ignored. */
+PANACHE_API void panache_character_set_side(panache_character* character, int32_t style,
+                                            float side);
 
 /* Takes a style of the remover off the input, at the input's tempo, before the styles are put on:
  * its style "any" suits motion in an unknown style. -1: none, as at first. Eased in over
@@ -301,7 +318,7 @@ PANACHE_API void panache_character_step(panache_character* character, panache_in
 PANACHE_API void panache_step_many(panache_character* const* characters, int32_t count,
                                    const panache_input_pose* in, double seconds,
                                    const panache_output_pose* out);
-/* Forgets the motion so far; keeps the strengths. */
+/* Forgets the motion so far; keeps strengths and sides. */
 PANACHE_API void panache_character_reset(panache_character* character);
 
 /* Facts about the last step. Initialise with PANACHE_REPORT. */
@@ -321,8 +338,8 @@ PANACHE_API panache_status panache_character_get_report(const panache_character*
 
 /* The state of a character, for rollback and rewind; valid in memory only, not in files. save()
  * writes panache_character_state_size() bytes. restore() reads them into any character with the
- * same model, skeleton and options, which then continues bit for bit; the strengths that were set
- * are not part of the state. Characters with the same history since creation or reset save the same
+ * same model, skeleton and options, which then continues bit for bit; the strengths and sides that
+ * were set are not part of the state. Characters with the same history since creation or reset save the same
  * bytes. On failure the character is unchanged. */
 PANACHE_API size_t panache_character_state_size(const panache_character* character);
 PANACHE_API void panache_character_save(const panache_character* character, void* out);
@@ -370,12 +387,15 @@ typedef struct panache_stylize_options {
   int32_t removed; /* The style of the remover to take off first; 0 without one. */
   /* A model that takes styles off, also the tempo; NULL: none. */
   const panache_model* remover;
-  /* As in panache_character_options. A clip with gestures at random is no loop. */
+  /* As in panache_character_options. A result that loops has no gestures at random. */
   float gesture_rate;
   uint32_t gesture_seed;
+  /* The side of each style of the model, as in panache_character_set_side(), -1 to 1; NULL: all 1.
+   * [panache_model_style_count()] */
+  const float* sides;
 } panache_stylize_options;
 #define PANACHE_STYLIZE_OPTIONS \
-  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15, 1, 0, NULL, 0, 0 }
+  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15, 1, 0, NULL, 1, 0, NULL }
 
 /* A styled clip. */
 typedef struct panache_styled_clip panache_styled_clip;

@@ -88,6 +88,16 @@ class Model : public Object<panache_model, panache_model_destroy> {
   const char* style_group(int style) const noexcept {
     return panache_model_style_group(get(), style);
   }
+  // "right leg", or "" where the model does not say; NULL where no style is at that place.
+  const char* style_side(int style) const noexcept {
+    return panache_model_style_side(get(), style);
+  }
+  // The side that "captured", "mirrored", "left" or "right" names.
+  float find_side(int style, const std::string& word) const {
+    float side = 1;
+    check(panache_model_find_side(get(), style, word.c_str(), &side));
+    return side;
+  }
   int gesture_count(int style) const noexcept { return panache_model_gesture_count(get(), style); }
   // NULL where the style has no such gesture.
   const char* gesture_name(int style, int gesture) const noexcept {
@@ -122,6 +132,10 @@ class Character : public Object<panache_character, panache_character_destroy> {
       : Object(panache_character_create, model.get(), skeleton.get(), options) {}
   void set_strength(int style, float strength) noexcept {
     panache_character_set_strength(get(), style, strength);
+  }
+  // 1 as captured, -1 mirrored.
+  void set_side(int style, float side) noexcept {
+    panache_character_set_side(get(), style, side);
   }
   // A style of the options' remover, taken off the input; -1: none.
   void set_removed(int style) noexcept { panache_character_set_removed(get(), style); }

@@ -35,8 +35,12 @@ std::vector<ManifestRow> rows_of(const Manifests& data, const std::string& style
   return rows;
 }
 
-std::vector<Gesture> find(const Manifests& data, const std::string& style,
-                          const std::vector<std::string>& actions) {
+struct Found {
+  std::vector<Gesture> gestures;
+  float rate;  // Per second.
+};
+Found find(const Manifests& data, const std::string& style,
+           const std::vector<std::string>& actions) {
   const std::vector<Take> takes =
       need(load_takes(rows_of(data, style, actions), PoseLayout::positions));
   std::vector<int> styled, neutral;
@@ -44,14 +48,16 @@ std::vector<Gesture> find(const Manifests& data, const std::string& style,
     (takes[t].row.neutral ? neutral : styled).push_back(static_cast<int>(t));
   }
   const std::vector<Pairing> pairings = pair_takes(takes, styled, neutral);
+  const FoundGestures all = find_gestures(takes, pairings);
   std::vector<Gesture> gestures;
-  for (const FoundGesture& found : find_gestures(takes, pairings)) {
+  for (const FoundGesture& found : all.gestures) {
     print(style + ": " + found.gesture.name() + ", in " +
           takes[static_cast<size_t>(found.take)].row.take + " at " + fixed(found.start, 1) +
           " s\n");
     gestures.push_back(found.gesture);
   }
-  return gestures;
+  print(style + ": " + fixed(double{all.rate}, 2) + " such moments a second\n");
+  return {gestures, all.rate};
 }
 
 int run(const Options& options) {
@@ -60,9 +66,10 @@ int run(const Options& options) {
   std::vector<TensorFile> models;
   for (const std::string& path : options.models) models.push_back(need(read_tensors(path)));
   for (const std::string& style : options.of) {
-    const std::vector<Gesture> found = find(data, style, options.actions);
+    const Found found = find(data, style, options.actions);
     for (size_t m = 0; m < models.size(); ++m) {
-      models[m] = need(set_gestures(models[m], style, found, options.models[m]));
+      models[m] =
+          need(set_gestures(models[m], style, found.gestures, found.rate, options.models[m]));
     }
   }
   for (size_t m = 0; m < models.size(); ++m) need(replace_model(options.models[m], models[m]));

@@ -26,12 +26,13 @@ std::vector<NetworkShape> network_shapes(const SampleSet& set, int styles) {
 
 std::map<std::string, std::string> model_metadata(const Recipe& recipe,
                                                   const std::vector<StyleName>& styles) {
-  std::string names, descriptions, groups, words;
+  std::string names, descriptions, groups, words, sides;
   for (const StyleName& style : styles) {
     names += style.name + "\n";
     descriptions += style.description + "\n";
     groups += style.group + "\n";
     words += style.words + "\n";
+    sides += style.side + "\n";
   }
   std::map<std::string, std::string> metadata = {
       {"format", "panache"},
@@ -47,6 +48,8 @@ std::map<std::string, std::string> model_metadata(const Recipe& recipe,
   if (std::ranges::any_of(styles, has_group)) metadata["style_groups"] = groups;
   const auto has_words = [](const StyleName& style) { return !style.words.empty(); };
   if (std::ranges::any_of(styles, has_words)) metadata["style_words"] = words;
+  const auto has_side = [](const StyleName& style) { return !style.side.empty(); };
+  if (std::ranges::any_of(styles, has_side)) metadata["style_sides"] = sides;
   return metadata;
 }
 

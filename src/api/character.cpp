@@ -16,8 +16,10 @@ panache_status panache_character_create(const panache_model* model,
                                         panache_character** out) {
   start(out);
   return guarded([&] {
-    const auto given = read_struct<panache_character_options>(options, PANACHE_CHARACTER_OPTIONS,
-                                                              "panache_character_options");
+    // Programs compiled with a header without gestures get none.
+    panache_character_options initial = PANACHE_CHARACTER_OPTIONS;
+    if (options) initial.gesture_rate = 0;
+    const auto given = read_struct(options, initial, "panache_character_options");
     if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error());
     LiveOptions how;
     how.stylizer.ease_seconds = given->ease_seconds;
@@ -45,6 +47,10 @@ void panache_character_set_strength(panache_character* character, int32_t style,
   std::vector<float>& strengths = character->strengths;
   if (style < 0 || size_t(style) >= strengths.size() || !std::isfinite(strength)) return;
   strengths[style] = strength;
+}
+
+void panache_character_set_side(panache_character* character, int32_t style, float side) {
+  character->live.stylizer().set_side(style, side);
 }
 
 void panache_character_set_removed(panache_character* character, int32_t style) {

@@ -50,10 +50,11 @@ Result<std::vector<StrengthTrack>> read_tracks(const panache_strength_track* fro
   return out;
 }
 
-Result<RestyleOptions> read_options(const panache_stylize_options* options) {
-  // Programs compiled with a header without loops get the old behaviour.
+// `styles`: how many the model has.
+Result<RestyleOptions> read_options(const panache_stylize_options* options, int32_t styles) {
+  // Programs compiled with a header without loops and gestures get the old behaviour.
   panache_stylize_options initial = PANACHE_STYLIZE_OPTIONS;
-  if (options) initial.loop = 0;
+  if (options) initial.loop = 0, initial.gesture_rate = 0;
   const auto given =
       read_struct<panache_stylize_options>(options, initial, "panache_stylize_options");
   if (!given) return given.error();
@@ -70,6 +71,7 @@ Result<RestyleOptions> read_options(const panache_stylize_options* options) {
   out.timing = given->style_timing != 0;
   out.stylizer.tempo_everywhere = given->style_timing == 2;
   out.stylizer.shape = *shape;
+  if (given->sides) out.stylizer.sides.assign(given->sides, given->sides + styles);
   if (given->loop < 0 || given->loop > 2) {
     return Error{"panache_stylize_options: loop is " + std::to_string(given->loop) +
                  "; expected 0, 1 or 2"};
@@ -121,7 +123,7 @@ panache_status panache_stylize_clip(const panache_model* model, const panache_cl
                                     panache_styled_clip** out) {
   start(out);
   return guarded([&] {
-    const auto how = read_options(options);
+    const auto how = read_options(options, panache_model_style_count(model));
     if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error());
     const auto strengths = read_tracks(tracks, track_count, panache_model_style_count(model));
     if (!strengths) return fail(PANACHE_BAD_ARGUMENT, strengths.error());

@@ -1,5 +1,6 @@
 #include "api/errors.h"
 #include "api/objects.h"
+#include "style/side.h"
 
 using namespace panache;
 using namespace panache::api;
@@ -28,6 +29,26 @@ const char* panache_model_style_name(const panache_model* model, int32_t style) 
 const char* panache_model_style_group(const panache_model* model, int32_t style) {
   if (style < 0 || style >= panache_model_style_count(model)) return nullptr;
   return model->model->styles()[style].group.c_str();
+}
+
+const char* panache_model_style_side(const panache_model* model, int32_t style) {
+  if (style < 0 || style >= panache_model_style_count(model)) return nullptr;
+  return model->model->styles()[style].side.c_str();
+}
+
+panache_status panache_model_find_side(const panache_model* model, int32_t style, const char* word,
+                                       float* side) {
+  return guarded([&] {
+    const int32_t count = panache_model_style_count(model);
+    if (style < 0 || style >= count) {
+      return fail(PANACHE_BAD_ARGUMENT, {"there is no style " + std::to_string(style) +
+                                         "; the model has " + std::to_string(count)});
+    }
+    const Result<float> found = find_side(*model->model, style, word);
+    if (!found) return fail(PANACHE_BAD_ARGUMENT, found.error());
+    *side = *found;
+    return PANACHE_OK;
+  });
 }
 
 int32_t panache_model_gesture_count(const panache_model* model, int32_t style) {

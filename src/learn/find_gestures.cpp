@@ -279,8 +279,8 @@ void add_moments(const Take& take, int number, const std::vector<float>& scores,
   }
 }
 
-// The strongest moments that do not overlap.
-std::vector<Moment> strongest(std::vector<Moment> moments) {
+// The moments that do not overlap stronger ones, strongest first.
+std::vector<Moment> without_overlap(std::vector<Moment> moments) {
   std::stable_sort(moments.begin(), moments.end(),
                    [](const Moment& a, const Moment& b) { return a.strength > b.strength; });
   std::vector<Moment> kept;
@@ -288,7 +288,7 @@ std::vector<Moment> strongest(std::vector<Moment> moments) {
     const bool overlaps = std::ranges::any_of(kept, [&](const Moment& other) {
       return other.take == moment.take && other.first < moment.last && moment.first < other.last;
     });
-    if (!overlaps && kept.size() < kFoundGestures) kept.push_back(moment);
+    if (!overlaps) kept.push_back(moment);
   }
   return kept;
 }
@@ -339,8 +339,7 @@ Gesture make_gesture(const std::vector<Excess>& frames, const Moment& moment, co
 
 }  // namespace
 
-std::vector<FoundGesture> find_gestures(const std::vector<Take>& takes,
-                                        std::span<const Pairing> pairings) {
+FoundGestures find_gestures(const std::vector<Take>& takes, std::span<const Pairing> pairings) {
   ExcessOfTakes excess;
   for (const Pairing& pairing : pairings) {
     if (excess.contains(pairing.styled)) continue;
@@ -348,15 +347,25 @@ std::vector<FoundGesture> find_gestures(const std::vector<Take>& takes,
   }
   const Parts limits = limits_of(excess);
   std::vector<Moment> moments;
+  double seconds = 0;
   for (const auto& [take, frames] : excess) {
     add_moments(takes[take], take, scores_of(frames, limits), moments);
+    seconds += takes[take].frames() / kTakeRate;
   }
-  std::vector<FoundGesture> found;
-  for (const Moment& moment : strongest(std::move(moments))) {
+  moments = without_overlap(std::move(moments));
+  FoundGestures found;
+  if (seconds > 0) found.rate = static_cast<float>(static_cast<double>(moments.size()) / seconds);
+  moments.resize(std::min(moments.size(), size_t{kFoundGestures}));
+  std::vector<Gesture> gestures;
+  for (const Moment& moment : moments) {
     const std::vector<Excess>& frames = excess[moment.take];
     const double begin = std::max(0.0, moment.first / kTakeRate - kEase);
-    found.push_back({make_gesture(frames, moment, moving_parts(frames, moment, limits), begin),
-                     moment.take, begin, moment.strength});
+    gestures.push_back(make_gesture(frames, moment, moving_parts(frames, moment, limits), begin));
+  }
+  name_gestures(gestures);
+  for (size_t g = 0; g < gestures.size(); ++g) {
+    const double begin = std::max(0.0, moments[g].first / kTakeRate - kEase);
+    found.gestures.push_back({gestures[g], moments[g].take, begin, moments[g].strength});
   }
   return found;
 }

@@ -19,9 +19,12 @@ struct FoundGesture {
 
 // Moments of 0.5 to 2.5 s at which the change from neutral to styled leaves the range that is usual
 // for its style, except where the body turns, starts or stops. `pairings`: those of one style.
-// Strongest first, at most kFoundGestures, without overlap.
+// Strongest first, at most kFoundGestures, without overlap; named as in a model.
 inline constexpr int kFoundGestures = 4;
-std::vector<FoundGesture> find_gestures(const std::vector<Take>& takes,
-                                        std::span<const Pairing> pairings);
+struct FoundGestures {
+  std::vector<FoundGesture> gestures;
+  float rate = 0;  // All such moments, per second of the styled takes.
+};
+FoundGestures find_gestures(const std::vector<Take>& takes, std::span<const Pairing> pairings);
 
 }  // namespace panache

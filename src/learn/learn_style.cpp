@@ -28,8 +28,6 @@ constexpr double kPoorMatch = 0.6, kNoMatch = 1.6;
 // Pairs of one action that are in step agree to at least 0.88, those half a cycle off to at most
 // 0.6. See step_agreement().
 constexpr double kInStep = 0.85;
-// Below this, two clips differ only by rounding.
-constexpr double kSameMotion = 0.001;
 // A clip that matches better by this factor when mirrored is mirrored, or a cycle that begins with
 // the other foot and is too short to find its beginning. Measured on 242 pairs: all others are
 // above 0.75. Below the second value, a clip matches anyway.
@@ -87,6 +85,18 @@ std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairing
   return instants;
 }
 
+// Whether the bodies of two takes agree within a millimetre for as long as the styled one lasts.
+bool same_motion(const Take& neutral, const Take& styled) {
+  constexpr float kSame = 0.001f;  // Metres.
+  if (neutral.frames() < styled.frames()) return false;
+  for (int f = 0; f < styled.frames(); ++f) {
+    for (size_t j = 0; j < kHumanJoints; ++j) {
+      if (length(neutral.body[f][j] - styled.body[f][j]) > kSame) return false;
+    }
+  }
+  return true;
+}
+
 Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& pairings,
                             const std::vector<Take>& takes, int neutral, int styled) {
   const std::string both = pair.neutral_name + " and " + pair.styled_name;
@@ -108,7 +118,7 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                  "; a pair shows one action, done neutrally and in the style"};
   }
   report.tempo = mean_tempo(pairings);
-  if (report.match < kSameMotion) {
+  if (same_motion(takes[neutral], takes[styled])) {
     return Error{both +
                  ": are the same motion, so there is no style to learn; give a clip in the style "
                  "as the second one"};
@@ -309,13 +319,14 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
     }
   }
   // If a twin does something else, the action itself would count as a gesture.
-  std::vector<FoundGesture> gestures;
+  FoundGestures gestures;
   if (trust == 1) gestures = find_gestures(takes, pairings);
-  for (const FoundGesture& found : gestures) {
+  for (const FoundGesture& found : gestures.gestures) {
     fits[0].tensors[gesture_key(learnt.gestures.size())] = found.gesture.tensor();
     learnt.gestures.push_back({found.gesture.name(), learnt.pairs[found.take / 2].styled_name,
                                found.start, found.gesture.seconds()});
   }
+  if (!gestures.gestures.empty()) info.gesture_rate = with_decimals(double{gestures.rate}, 3);
   learnt.file = make_style_file(file, info, std::move(fits[0].tensors));
   return learnt;
 }

@@ -8,6 +8,7 @@
 
 #include "base/csv.h"
 #include "learn/style_file.h"
+#include "style/side.h"
 
 namespace panache {
 
@@ -73,22 +74,26 @@ int next_set(const std::vector<ManifestRow>& rows) {
 }
 
 Result<std::vector<StyleName>> read_style_names(const std::string& path) {
-  Result<CsvTable> table = read_csv(path, {"name", "from", "description"}, {"group", "words"});
+  Result<CsvTable> table = read_csv(path, {"name", "from", "description"}, {"group", "words", "side"});
   if (!table) return table.error();
   std::vector<StyleName> names;
   std::set<std::string> known, taken;
   for (const CsvRow& cells : table->rows) {
-    StyleName style{cells.values[0], {}, cells.values[2], cells.values[3], cells.values[4]};
+    StyleName style{cells.values[0], {}, cells.values[2], cells.values[3], cells.values[4],
+                    cells.values[5]};
     const std::string where = path + ":" + std::to_string(cells.line) + ": ";
     if (auto good = check_style_name(style.name); !good) return Error{where + good.error().message};
     if (!known.insert(style.name).second) {
       return Error{where + "style '" + style.name +
                    "' is listed already; expected one line with all its names in column from"};
     }
-    for (const size_t column : {2, 3, 4}) {  // A model stores each on a line of its metadata.
+    for (const size_t column : {2, 3, 4, 5}) {  // A model stores each on a line of its metadata.
       if (is_one_line(cells.values[column])) continue;
       return Error{where + "column " + table->columns[column] +
                    " is not one line of UTF-8 text; expected no line breaks and no tabs in it"};
+    }
+    if (auto good = check_side_phrase(style.side); !good) {
+      return Error{where + "column side: " + good.error().message};
     }
     size_t begin = 0;
     const std::string& from = cells.values[1];

@@ -29,6 +29,7 @@ struct StyleName {
   std::string description;
   std::string group = {};  // Its heading in lists, "moods"; "" without one.
   std::string words = {};  // Other words for it, separated by spaces; may be empty.
+  std::string side = {};   // What its takes show: "right leg", see style/side.h; may be empty.
 };
 
 // Reads a CSV with the columns path, style, content, take, neutral, split and optionally person, in
@@ -39,9 +40,9 @@ Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set)
 // One more than the largest set of `rows`.
 int next_set(const std::vector<ManifestRow>& rows);
 
-// Reads a CSV with the columns name, from, description and optionally group and words, in any
+// Reads a CSV with the columns name, from, description and optionally group, words and side, in any
 // order; several `from` are separated by spaces. Fails if a style name is invalid or listed twice,
-// if one `from` has two names, or if a description, group or words are not one line of UTF-8.
+// if one `from` has two names, or if a description, group, words or side are not one line of UTF-8.
 Result<std::vector<StyleName>> read_style_names(const std::string& path);
 
 // A sentence for each row whose file does not exist, with its manifest and line.

@@ -11,8 +11,10 @@
 
 #include "base/lower_case.h"
 #include "base/xml.h"
+#include "clip/decimal.h"
 #include "clip/text_cursor.h"
 #include "recipes/recipes.h"
+#include "style/side.h"
 #include "style/state_bytes.h"
 
 namespace panache {
@@ -24,6 +26,7 @@ constexpr size_t kMaxNameBytes = 60;
 
 // Names of a style's tensors in a style file.
 constexpr std::array kBuiltInTensors = {
+    "pose.reduce.weight",  "pose.reduce.bias",  "pose.reduce.scale",
     "pose.head.weight",    "pose.head.bias",    "pose.head.scale",
     "timing.head.weight",  "timing.head.bias",  "timing.head.scale",
     "contact.head.weight", "contact.head.bias", "contact.head.scale"};
@@ -43,7 +46,9 @@ constexpr StyleText kTexts[] = {{"style", "styles", &StyleInfo::name},
                                 {"source", "style_sources", &StyleInfo::source},
                                 {"style_licence", "style_licences", &StyleInfo::licence},
                                 {"thumbnail", "style_thumbnails", &StyleInfo::thumbnail},
-                                {"words", "style_words", &StyleInfo::words}};
+                                {"side", "style_sides", &StyleInfo::side},
+                                {"words", "style_words", &StyleInfo::words},
+                                {"gesture_rate", "style_gesture_rates", &StyleInfo::gesture_rate}};
 
 using Tensors = std::map<std::string, Tensor>;
 
@@ -239,9 +244,15 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
   for (const auto& [key, list, entry] : kTexts) info.*entry = metadata_of(file, key);
   if (auto fit = check_style_name(info.name); !fit) return located(name, fit.error());
   for (const char* key : {"description", "origin", "group", "source", "style_licence", "thumbnail",
-                          "words", "trunk", "data", "licence"}) {
+                          "side", "words", "trunk", "data", "licence"}) {
     if (is_one_line(metadata_of(file, key))) continue;
     return Error{name + ": metadata '" + key + "' is not one line of UTF-8 text"};
+  }
+  if (auto side = check_side_phrase(info.side); !side) {
+    return Error{name + ": metadata 'side': " + side.error().message};
+  }
+  if (auto rate = read_gesture_rate(info.gesture_rate); !rate) {
+    return Error{name + ": metadata 'gesture_rate': " + rate.error().message};
   }
   size_t known = 0;
   for_each_tensor(info.learnt,
@@ -330,13 +341,16 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
 }
 
 Result<TensorFile> set_gestures(const TensorFile& model, const std::string& style,
-                                std::span<const Gesture> gestures, const std::string& name) {
+                                std::span<const Gesture> gestures, float rate,
+                                const std::string& name) {
   assert(gestures.size() <= kMaxGestures);
   Result<Opened> opened = open_at(model, style, name);
   if (!opened) return opened.error();
-  Tensors& tensors = opened->parts.styles[opened->style].tensors;
+  Style& found = opened->parts.styles[opened->style];
+  Tensors& tensors = found.tensors;
   for (size_t k = 0; k < kMaxGestures; ++k) tensors.erase(gesture_key(k));
   for (size_t k = 0; k < gestures.size(); ++k) tensors[gesture_key(k)] = gestures[k].tensor();
+  found.info.gesture_rate = gestures.empty() ? "" : with_decimals(double{rate}, 3);
   return put_together(std::move(opened->parts));
 }
 

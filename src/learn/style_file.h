@@ -55,9 +55,11 @@ Result<TensorFile> extract_style(const TensorFile& model, const std::string& sty
 // Model::create() checks the style's shapes and numbers.
 Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
                              const TensorFile& style, const std::string& style_name, bool replace);
-// The model whose style called `style` has exactly these gestures, at most kMaxGestures.
+// The model whose style called `style` has exactly these gestures, at most kMaxGestures, `rate` of
+// them a second.
 Result<TensorFile> set_gestures(const TensorFile& model, const std::string& style,
-                                std::span<const Gesture> gestures, const std::string& name);
+                                std::span<const Gesture> gestures, float rate,
+                                const std::string& name);
 // The model without a style. It keeps at least one.
 Result<TensorFile> remove_style(const TensorFile& model, const std::string& style,
                                 const std::string& name);

@@ -15,14 +15,15 @@ ClipStepper::ClipStepper(const Clip& clip, const Rig& rig, ChangeSource& source,
   const int second = std::min(rig.first_frame(), clip.frames - 1) + 1;
   if (second >= clip.frames || !(clip.frame_time > 0)) return;
   sample(clip, second, {rotations_, translations_});
-  stepper_.set_next(pose(), clip.frame_time);
+  next_ = stepper_.see_next(pose(), clip.frame_time);
 }
 
 void ClipStepper::step(double frame, double advance, double seconds) {
   const Pose pose = {rotations_, translations_};
   sample(clip_, frame, pose);
   flight_ = lookout_.flight(frame);
-  const StepMoment moment = {advance * clip_.frame_time, clip_.frame_time, flight_, seconds};
+  const StepMoment moment = {advance * clip_.frame_time, clip_.frame_time, flight_, seconds,
+                             next_ ? &*next_ : nullptr};
   gate_ = stepper_.step(pose, moment, source_, pose).gate;
 }
 

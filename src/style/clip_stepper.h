@@ -1,6 +1,7 @@
 #pragma once
 // Steps a character through a clip, frame by frame.
 
+#include <optional>
 #include <vector>
 
 #include "clip/clip.h"
@@ -33,6 +34,7 @@ class ClipStepper {
   ChangeSource& source_;
   Stepper stepper_;
   FlightLookout lookout_;
+  std::optional<NextPose> next_;  // The second pose.
   float flight_ = 0, gate_ = 1;
   std::vector<Quat> rotations_;
   std::vector<Vec3> translations_;

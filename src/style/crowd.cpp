@@ -49,7 +49,8 @@ void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
     const size_t count = count_together(members);
     std::array<std::array<float, InputWindow::kMaxNumbers>, kRowsAtOnce> windows;
     std::array<Seen, kRowsAtOnce> seen;
-    std::array<StyleNetworks::Pass, kRowsAtOnce> passes;
+    std::array<StyleNetworks::Pass, StyleNetworks::kMaxPasses * kRowsAtOnce> passes;
+    size_t pass_count = 0;
     std::array<FetchLater, kRowsAtOnce> fetches;
     for (size_t i = 0; i < count; ++i) {
       const auto& [character, in, strengths, out] = members[i];
@@ -58,9 +59,10 @@ void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
       if (i + 1 < members.size()) members[i + 1].character->stepper_.fetch_poses(seconds);
       seen[i] = character->stepper_.take_in(in, {seconds, seconds}, windows[i], &fetches[i]);
       character->source_.set_strengths(strengths);
-      passes[i] = character->source_.begin(seen[i]);
+      pass_count += character->source_.begin(
+          seen[i], std::span(passes).subspan(pass_count).first<StyleNetworks::kMaxPasses>());
     }
-    StyleNetworks::forward_all(std::span(passes).first(count));
+    StyleNetworks::forward_all(std::span(passes).first(pass_count));
     for (size_t i = 0; i < count; ++i) {
       Stylizer& character = *members[i].character;
       character.stepper_.give_out(character.source_.finish(seen[i]), seen[i], members[i].out);

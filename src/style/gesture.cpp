@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "base/quat.h"
+#include "style/gesture_name.h"
 
 namespace panache {
 namespace {
@@ -24,71 +24,6 @@ GesturePose unpack(std::span<const float> numbers) {
   return pose;
 }
 
-// The turn of `joint` relative to `parent` (an ancestor, or -1), a rotation vector.
-Vec3 turn_beyond(const GesturePose& pose, int parent, int joint) {
-  Quat turn;
-  for (int j = joint; j != parent; j = kHumanParent[j]) turn = exp_rotation(pose.turns[j]) * turn;
-  return log_rotation(turn);
-}
-
-struct Moved {
-  const char* part;
-  Vec3 turn = {};  // At its largest.
-  float size = 0;  // In units of a noticeable turn.
-};
-
-// The direction of a turn of torso or head.
-const char* direction_of(Vec3 turn, bool is_head) {
-  const float x = std::abs(turn.x), y = std::abs(turn.y), z = std::abs(turn.z);
-  if (y >= x && y >= z) return turn.y > 0 ? "turns left" : "turns right";
-  if (x >= z && is_head) return turn.x > 0 ? "nods" : "looks up";
-  if (x >= z) return turn.x > 0 ? "bends forward" : "bends back";
-  return turn.z > 0 ? "leans right" : "leans left";
-}
-
-// The largest turn of each part, in units of a noticeable one.
-struct Moves {
-  Moved head{"head"}, body{"body"}, left{"left arm"}, right{"right arm"};
-  float lift = 0, low = 0;  // Metres.
-};
-
-Moves moves_of(const std::vector<GesturePose>& points) {
-  using enum HumanJoint;
-  constexpr float kNoticed = 0.25f, kNoticedArm = 0.6f;  // Radians.
-  Moves moves;
-  for (const GesturePose& pose : points) {
-    const auto see = [&](Moved& moved, int parent, HumanJoint joint, float noticed) {
-      const Vec3 turn = turn_beyond(pose, parent, index(joint));
-      if (length(turn) / noticed > moved.size) moved = {moved.part, turn, length(turn) / noticed};
-    };
-    see(moves.head, index(chest), head, kNoticed);
-    see(moves.body, -1, chest, kNoticed);
-    for (const HumanJoint joint : {left_upper_arm, left_hand}) {
-      see(moves.left, index(chest), joint, kNoticedArm);
-    }
-    for (const HumanJoint joint : {right_upper_arm, right_hand}) {
-      see(moves.right, index(chest), joint, kNoticedArm);
-    }
-    moves.lift = std::max(moves.lift, pose.lift);
-    moves.low = std::min(moves.low, pose.height);
-  }
-  return moves;
-}
-
-std::string describe(const std::vector<GesturePose>& points) {
-  constexpr float kNoticedHeight = 0.06f;  // Metres.
-  const auto [head, body, left, right, lift, low] = moves_of(points);
-  if (lift > kNoticedHeight) return "hop";
-  const float arms = std::max(left.size, right.size), most = std::max({head.size, body.size, arms});
-  if (-low / kNoticedHeight > most) return "dip";
-  if (most == arms) {
-    if (std::min(left.size, right.size) > 0.7f * arms) return "both arms";
-    return left.size > right.size ? left.part : right.part;
-  }
-  if (most == head.size) return std::string("head ") + direction_of(head.turn, true);
-  return std::string("body ") + direction_of(body.turn, false);
-}
-
 // "1.2 s", without the program's locale.
 std::string seconds_text(float seconds) {
   const int tenths = static_cast<int>(std::lround(seconds * 10));
@@ -104,6 +39,15 @@ GesturePose scaled(float weight, GesturePose pose) noexcept {
   return pose;
 }
 
+GesturePose mirrored(const GesturePose& pose) noexcept {
+  GesturePose out = pose;
+  for (size_t j = 0; j < kGestureJoints; ++j) {
+    const Vec3 turn = pose.turns[static_cast<size_t>(kHumanMirror[j])];
+    out.turns[j] = {turn.x, -turn.y, -turn.z};
+  }
+  return out;
+}
+
 void add_scaled(float weight, const GesturePose& pose, GesturePose& sum) noexcept {
   for (size_t j = 0; j < kGestureJoints; ++j) sum.turns[j] += pose.turns[j] * weight;
   sum.height += pose.height * weight;
@@ -115,7 +59,34 @@ Gesture::Gesture(const std::vector<GesturePose>& points) : points_(points) {
   moves_hips_ = std::ranges::any_of(points, [](const GesturePose& pose) {
     return pose.height != 0 || pose.lift != 0 || length(pose.turns[0]) != 0;
   });
-  name_ = describe(points) + ", " + seconds_text(seconds());
+  name_gestures({this, 1});
+}
+
+void name_gestures(std::span<Gesture> gestures) {
+  std::vector<std::vector<std::string>> movements;
+  for (const Gesture& gesture : gestures) movements.push_back(movements_of(gesture.points_));
+  const std::vector<std::string> names = distinct_names(movements);
+  for (size_t g = 0; g < gestures.size(); ++g) {
+    gestures[g].name_ = names[g] + ", " + seconds_text(gestures[g].seconds());
+  }
+}
+
+Result<float> read_gesture_rate(std::string_view text) {
+  double number = 0, unit = 1;
+  bool good = text.size() <= 8, after_point = false;
+  for (const char c : text) {
+    if (c == '.' && !after_point) {
+      after_point = true;
+      continue;
+    }
+    good = good && c >= '0' && c <= '9';
+    number = 10 * number + (c - '0');
+    if (after_point) unit *= 10;
+  }
+  const auto rate = static_cast<float>(number / unit);
+  if (good && rate <= kMaxGestureRate) return rate;
+  return Error{"'" + std::string(text) +
+               "'; expected gestures a second from 0 to 10, such as 0.25"};
 }
 
 Result<Gesture> Gesture::read(const Tensor& tensor, const std::string& key,

@@ -3,7 +3,9 @@
 // stored with the style and played on top of it.
 
 #include <array>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -27,6 +29,8 @@ struct GesturePose {
 };
 
 GesturePose scaled(float weight, GesturePose pose) noexcept;
+// Left for right.
+GesturePose mirrored(const GesturePose& pose) noexcept;
 void add_scaled(float weight, const GesturePose& pose, GesturePose& sum) noexcept;
 
 // A curve of such poses: a uniform cubic B-spline whose value and first two derivatives are zero at
@@ -48,16 +52,25 @@ class Gesture {
   GesturePose at(float time) const noexcept;
   // Whether it moves hips or feet, so that the feet must be down to start it.
   bool moves_hips() const noexcept { return moves_hips_; }
-  // The largest movement and the duration, for display: "head turns left, 1.2 s".
+  // What it does and how long, for display: "glances left, 1.2 s".
   const std::string& name() const noexcept { return name_; }
 
  private:
+  friend void name_gestures(std::span<Gesture> gestures);
+
   std::vector<GesturePose> points_;
   bool moves_hips_ = false;
   std::string name_;
 };
 
-// The maximum number of gestures of one style.
+// Names all gestures of a style, so that no two have the same name; see gesture_name.h.
+void name_gestures(std::span<Gesture> gestures);
+
+// How many gestures a second a text says, "0.25"; an empty one says 0.
+Result<float> read_gesture_rate(std::string_view text);
+
+// The maximum number of gestures of one style, and of gestures per second.
 inline constexpr int kMaxGestures = 16;
+inline constexpr float kMaxGestureRate = 10;
 
 }  // namespace panache

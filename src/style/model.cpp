@@ -9,6 +9,7 @@
 #include "recipes/recipes.h"
 #include "style/names.h"
 #include "style/predictor_network.h"
+#include "style/side.h"
 
 namespace panache {
 namespace {
@@ -146,7 +147,9 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
                {"style_sources", &StyleInfo::source},
                {"style_licences", &StyleInfo::licence},
                {"style_thumbnails", &StyleInfo::thumbnail},
-               {"style_words", &StyleInfo::words}};
+               {"style_sides", &StyleInfo::side},
+               {"style_words", &StyleInfo::words},
+               {"style_gesture_rates", &StyleInfo::gesture_rate}};
   for (const auto& [key, entry] : lists) {
     const auto found = file.metadata.find(key);
     if (found == file.metadata.end()) continue;
@@ -156,6 +159,18 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
                    " lines; expected " + std::to_string(styles_.size()) + ", one per style"};
     }
     for (size_t i = 0; i < lines.size(); ++i) styles_[i].*entry = lines[i];
+  }
+  for (const StyleInfo& style : styles_) {
+    if (Result<void> good = check_side_phrase(style.side); !good) {
+      return Error{name + ": metadata 'style_sides': style '" + style.name +
+                   "': " + good.error().message};
+    }
+    const Result<float> rate = read_gesture_rate(style.gesture_rate);
+    if (!rate) {
+      return Error{name + ": metadata 'style_gesture_rates': style '" + style.name +
+                   "': " + rate.error().message};
+    }
+    gesture_rates_.push_back(*rate);
   }
   // A model without styles can be used to learn some.
   if (styles_.empty() && !recipe_->learns_styles) return Error{name + ": has no styles"};

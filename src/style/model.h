@@ -35,8 +35,11 @@ struct StyleInfo {
   std::string source = {};     // The source of its motion,
   std::string licence = {};    // and its licence, for users; may be empty.
   std::string thumbnail = {};  // A picture, SVG on one line; may be empty.
+  std::string side = {};       // The captured side, "right leg", see side.h; may be empty.
   std::string words = {};      // Other words for it, separated by spaces, "elderly aged"; may be
                                // empty.
+  // Gestures a second in its takes, "0.25"; empty if unknown.
+  std::string gesture_rate = {};
 };
 
 class Model {
@@ -63,6 +66,9 @@ class Model {
   std::span<const Gesture> gestures(int style) const {
     return gestures_[static_cast<size_t>(style)];
   }
+  // How many of them a second the takes of a style have; 0 if it has none or the model does not
+  // say.
+  float gesture_rate(int style) const { return gesture_rates_[static_cast<size_t>(style)]; }
   // Parameters of the networks, without gestures.
   size_t parameter_count() const { return parameter_count_; }
   // The predictor of missing input; null in models without one.
@@ -96,6 +102,7 @@ class Model {
   // Limits for files, so that a step can work on the stack.
   static constexpr size_t kMaxInputs = 2048, kMaxUnits = 512, kMaxStyles = 255;
   static constexpr size_t kMaxActivations = 3 * kMaxUnits;
+  static constexpr int kMaxReduced = 128;  // Combinations of activations that a pose head reads.
   // The maximum scratch size of a forward pass, in floats: inputs, all layers of three trunks,
   // activations in three stages of a gate, outputs of one head or of all styles' small heads.
   static constexpr size_t kMaxScratch =
@@ -135,6 +142,8 @@ class Model {
   Result<void> read_numbers(const TensorFile& file, const std::string& name);
   Result<void> read_gate(const TensorFile& file, const std::string& name);
   Result<void> read_networks(const TensorFile& file, const std::string& name);
+  Result<std::vector<int>> read_reductions(const TensorFile& file, int styles,
+                                           const std::string& name);
   Result<void> read_activations(const TensorFile& file, const std::string& name);
   Result<void> read_recognition(const TensorFile& file, const std::string& name);
   static size_t count_learnt(const TensorFile& file);
@@ -155,6 +164,9 @@ class Model {
   float input_clip_ = 0;                          // In deviations; infinity clips nothing.
   TrunkTrio trunks_;
   std::array<Heads, kNetworks> heads_;
+  // What each pose head reads: a few combinations of the activations of all layers of the pose
+  // trunk, whose mean on the style's examples is zero. Empty: heads read the last layer.
+  std::vector<PackedLayer> reductions_;  // [styles], each [activations][units]
   Gate gate_;
   std::vector<float> activation_mean_, activation_scale_,
       activation_factor_;  // The last is 1 / scale.
@@ -162,6 +174,7 @@ class Model {
   std::vector<Learnt> learnt_;                  // The last styles of the list.
   std::vector<Stance> stances_;                 // [styles], or empty if unknown.
   std::vector<std::vector<Gesture>> gestures_;  // [styles]
+  std::vector<float> gesture_rates_;            // [styles]
   std::shared_ptr<const PredictorNetwork> predictor_;
   size_t parameter_count_ = 0;
   size_t scratch_size_ = 0;  // Scratch size of one character's forward pass, see kMaxScratch.

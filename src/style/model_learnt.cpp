@@ -96,6 +96,8 @@ Result<void> Model::read_gestures(const TensorFile& file, const std::string& nam
       if (!gesture) return gesture.error();
       gestures_[style].push_back(*std::move(gesture));
     }
+    name_gestures(gestures_[style]);
+    if (gestures_[style].empty()) gesture_rates_[style] = 0;
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #include "style/network_source.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace panache {
 namespace {
@@ -11,10 +12,19 @@ constexpr float kGateSeconds = 0.15f;  // Time constant of the gate.
 
 NetworkSource::NetworkSource(std::shared_ptr<const Model> model, const StylizerOptions& options)
     : options_{options.gesture_rate, options.gesture_seed},
+      sides_(options.sides),
       shape_(options.shape),
       strengths_(model->styles().size(), options.ease_seconds),
       networks_(std::move(model)),
-      gestures_(options.gesture_seed) {}
+      gestures_(options.gesture_seed) {
+  sides_.resize(this->model().styles().size(), 1.0f);
+}
+
+void NetworkSource::set_side(int style, float side) noexcept {
+  if (style < 0 || static_cast<size_t>(style) >= sides_.size() || !std::isfinite(side)) return;
+  if (!model().recipe().style_heads) return;
+  sides_[static_cast<size_t>(style)] = std::clamp(side, -1.0f, 1.0f);
+}
 
 bool NetworkSource::trigger(int style, int gesture) noexcept {
   if (style < 0 || static_cast<size_t>(style) >= model().styles().size()) return false;
@@ -23,23 +33,29 @@ bool NetworkSource::trigger(int style, int gesture) noexcept {
   return true;
 }
 
-StyleNetworks::Pass NetworkSource::begin(const Seen& seen) noexcept {
+void NetworkSource::ease_strengths(const Seen& seen) noexcept {
   if (seen.time.first) gestures_.stop();
-  strengths_.step(wanted_, shape_, seen.time);
-  networks_.set_strengths(strengths_.now());
+  strengths_.step(wanted_, sides_, shape_, seen.time);
+  networks_.set_strengths(strengths_.now(), strengths_.sides());
   tell(seen.clock, Stage::strengths);
-  return {&networks_, seen.window, seen.time.gain(kGateSeconds)};
+}
+
+size_t NetworkSource::begin(
+    const Seen& seen, std::span<StyleNetworks::Pass, StyleNetworks::kMaxPasses> passes) noexcept {
+  ease_strengths(seen);
+  return networks_.passes(seen.window, seen.time.gain(kGateSeconds), passes);
 }
 
 AskedChange NetworkSource::finish(const Seen& seen) noexcept {
   AskedChange asked;
   asked.delta = model().recipe().to_change(networks_.pose(), *seen.body, seen.root());
   asked.log_rate = networks_.log_rate();
-  std::ranges::copy(networks_.contact(), asked.contacts.begin());
+  asked.contacts = networks_.contact();
   asked.gate = networks_.gate();
   asked.stance = networks_.stance();
   if (options_.gesture_rate > 0 || !gestures_.rests()) {
-    gestures_.step(model(), strengths_.now(), options_.gesture_rate, seen.ground, seen.time);
+    gestures_.step(model(), strengths_.now(), strengths_.sides(), options_.gesture_rate,
+                   seen.ground, seen.time);
   }
   asked.gesture = gestures_.now();
   asked.shape = &strengths_.shape();
@@ -48,8 +64,8 @@ AskedChange NetworkSource::finish(const Seen& seen) noexcept {
 }
 
 AskedChange NetworkSource::ask(const Seen& seen) noexcept {
-  const StyleNetworks::Pass pass = begin(seen);
-  networks_.forward(pass.window, pass.gate_share);
+  ease_strengths(seen);
+  networks_.forward(seen.window, seen.time.gain(kGateSeconds));
   tell(seen.clock, Stage::networks);
   return finish(seen);
 }

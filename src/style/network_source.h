@@ -1,5 +1,6 @@
 #pragma once
-// A model as a source of change: its networks, weighted by the styles' strengths, and its gestures.
+// A model as a source of change: its networks, weighted by the styles' strengths and sides, and its
+// gestures.
 
 #include "style/change_source.h"
 #include "style/networks.h"
@@ -15,14 +16,18 @@ class NetworkSource final : public ChangeSource {
 
   // See Stylizer. The strengths are read at the next instant, [styles].
   void set_strengths(std::span<const float> strengths) noexcept { wanted_ = strengths; }
+  void set_side(int style, float side) noexcept;
   void set_shape(const Shape& shape) noexcept { shape_ = shape; }
   bool trigger(int style, int gesture) noexcept;
+  void set_gesture_rate(float rate) noexcept { options_.gesture_rate = rate; }
   void reset_gestures() noexcept { gestures_.reset(options_.gesture_seed); }
 
   PoseLayout layout() const override { return model().layout(); }
   AskedChange ask(const Seen& seen) noexcept override;
-  // The two parts of ask(); between them, a crowd's networks are evaluated together.
-  StyleNetworks::Pass begin(const Seen& seen) noexcept;
+  // The two parts of ask(); between them, a crowd's networks are evaluated together. Writes the
+  // passes to evaluate and returns their number.
+  size_t begin(const Seen& seen,
+               std::span<StyleNetworks::Pass, StyleNetworks::kMaxPasses> passes) noexcept;
   AskedChange finish(const Seen& seen) noexcept;
 
   // At the last instant; see Stylizer.
@@ -43,12 +48,15 @@ class NetworkSource final : public ChangeSource {
   }
 
  private:
+  void ease_strengths(const Seen& seen) noexcept;
+
   struct {
     float gesture_rate;
     uint32_t gesture_seed;
   } options_;
   std::span<const float> wanted_;
-  Shape shape_;  // As requested.
+  std::vector<float> sides_;  // As requested. [styles]
+  Shape shape_;               // As requested.
   EasedStrengths strengths_;
   StyleNetworks networks_;
   GesturePlayer gestures_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "base/elementary.h"
+#include "pose/mirror.h"
 #include "style/networks_scratch.h"
 #include "style/stages/strengths.h"
 
@@ -12,17 +12,17 @@ namespace panache {
 StyleNetworks::StyleNetworks(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       strengths_(model_->styles_.size()),
-      pose_out_(model_->output_scale_.size()),
-      learnt_gates_(model_->learnt_.size(), 1.0f) {}
-
-void StyleNetworks::set_strengths(std::span<const float> strengths) noexcept {
-  assert(strengths.size() == strengths_.size());
-  std::copy(strengths.begin(), strengths.end(), strengths_.begin());
+      sides_(strengths_.size(), 1.0f) {
+  for (HalfMemory& half : halves_) {
+    half.pose.resize(model_->output_scale_.size());
+    half.learnt_gates.assign(model_->learnt_.size(), 1.0f);
+  }
 }
 
 void StyleNetworks::add_memory(Prefetch& prefetch) const noexcept {
   prefetch.add(std::span(strengths_));
-  prefetch.add(std::span(pose_out_));
+  prefetch.add(std::span(sides_));
+  prefetch.add(std::span(result().pose));
 }
 
 StyleNetworks::Styles StyleNetworks::styles_in_force(std::span<const Pass> passes) noexcept {
@@ -42,16 +42,18 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, Styles in_force, int
                               Rows<const float> hidden, ScratchArena& arena, Out out) noexcept {
   const Model& m = *passes.front().networks->model_;
   const Model::Heads& heads = m.heads_[network];
-  for (const Pass& pass : passes) std::ranges::fill(out(*pass.networks), 0.0f);
+  for (const Pass& pass : passes) std::ranges::fill(out(memory(pass)), 0.0f);
   if (heads.layers.empty()) return;
   // Heads that are always active: the only one, or that of no style.
   const size_t always = heads.count > m.built_in() || !m.recipe().style_heads;
   const size_t first = always > 0 ? 0 : in_force.begin;
   const size_t last = std::min(heads.count, always + in_force.end);
   const auto strength = [&](size_t p, size_t h) {
-    if (h < always) return 1.0f;
-    const float asked = passes[p].networks->strengths_[h - always];
-    return network == Model::kPose ? posture_strength(asked) : movement_strength(asked);
+    const auto& [networks, window, gate_share, half] = passes[p];
+    if (h < always) return networks->share(half);
+    const float asked = networks->strengths_[h - always];
+    return networks->share(half, h - always) *
+           (network == Model::kPose ? posture_strength(asked) : movement_strength(asked));
   };
   ScratchArena room = arena;
   const Rows<float> answers = room.rows(passes.size(), heads.layers.front().width());
@@ -61,7 +63,7 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, Styles in_force, int
       for (size_t h = first; h < last; ++h) {
         const float* from = answers.row(p) + h * heads.outputs;
         if (strength(p, h) == 0) continue;
-        add_scaled(strength(p, h), {from, heads.outputs}, out(*passes[p].networks));
+        add_scaled(strength(p, h), {from, heads.outputs}, out(memory(passes[p])));
       }
     }
     return;
@@ -85,21 +87,16 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, Styles in_force, int
     }
     heads.layers[h].forward(from, {answers.first, count, answers.stride});
     for (size_t k = 0; k < count; ++k) {
-      add_scaled(strength(who[k], h), {answers.row(k), heads.outputs},
-                 out(*passes[who[k]].networks));
+      add_scaled(strength(who[k], h), {answers.row(k), heads.outputs}, out(memory(passes[who[k]])));
     }
   }
 }
 
-Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const float> hidden,
-                                        ScratchArena& arena) noexcept {
-  const Model& m = *passes.front().networks->model_;
-  const Model::Gate& gate = m.gate_;
-  if (!gate.present()) return hidden;
+void StyleNetworks::ease_gates(std::span<const Pass> passes, Rows<const float> hidden,
+                               Rows<float> centred, ScratchArena& arena) noexcept {
+  const Model::Gate& gate = passes.front().networks->model_->gate_;
   const size_t size = gate.mean.size();
-  const Rows<float> activations = arena.rows(passes.size(), size);
   ScratchArena room = arena;
-  const Rows<float> centred = room.rows(passes.size(), size);
   const Rows<float> white = room.rows(passes.size(), size);
   for (size_t p = 0; p < passes.size(); ++p) {
     for (size_t i = 0; i < size; ++i) centred.row(p)[i] = hidden.row(p)[i] - gate.mean[i];
@@ -110,8 +107,23 @@ Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const
     const float square = square_length({white.row(p), size});
     const float near = square > limit ? limit / square : 1.0f;
     const float wanted = near * near;  // Falls with the fourth power of the distance.
-    float& open = passes[p].networks->gate_;
-    if (std::isfinite(wanted)) ease_gate(wanted, passes[p].gate_share, open);
+    if (std::isfinite(wanted)) {
+      ease_gate(wanted, passes[p].gate_share, memory(passes[p]).gate);
+    }
+  }
+}
+
+Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const float> hidden,
+                                        ScratchArena& arena) noexcept {
+  const Model::Gate& gate = passes.front().networks->model_->gate_;
+  if (!gate.present()) return hidden;
+  const size_t size = gate.mean.size();
+  const Rows<float> activations = arena.rows(passes.size(), size);
+  ScratchArena room = arena;
+  const Rows<float> centred = room.rows(passes.size(), size);
+  ease_gates(passes, hidden, centred, room);
+  for (size_t p = 0; p < passes.size(); ++p) {
+    const float open = memory(passes[p]).gate;
     const std::span<float> out(activations.row(p), size);
     if (open == 1) {
       std::copy_n(hidden.row(p), size, out.begin());
@@ -123,23 +135,60 @@ Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const
   return activations;
 }
 
-Stance StyleNetworks::stance() const noexcept {
-  Stance sum;
-  for (size_t s = 0; s < model_->stances_.size(); ++s) {
-    if (strengths_[s] == 0) continue;
-    const float strength = posture_strength(strengths_[s]);
-    const Stance& own = model_->stances_[s];
-    sum.heel += strength * own.heel;
-    for (size_t f = 0; f < kFeet; ++f) sum.turn[f] += strength * own.turn[f];
+void StyleNetworks::add_reduced(std::span<const Pass> passes, Styles in_force,
+                                std::span<const float> scratch, ScratchArena& arena) noexcept {
+  const Model& m = *passes.front().networks->model_;
+  const Model::Heads& heads = m.heads_[Model::kPose];
+  ScratchArena room = arena;
+  const size_t count = m.activation_count();
+  const Rows<float> activations = room.rows(passes.size(), count);
+  for (size_t p = 0; p < passes.size(); ++p) {
+    std::ranges::fill(memory(passes[p]).pose, 0.0f);
+    m.trunks_.all_layers(Model::kPose, p, passes.size(), scratch, {activations.row(p), count});
   }
-  return sum;
+  const Rows<float> gathered = room.rows(passes.size(), count);
+  std::array<size_t, kRowsAtOnce> who;
+  const size_t last = std::min(heads.count, in_force.end);
+  const auto strength = [&](size_t p, size_t h) {
+    const StyleNetworks& self = *passes[p].networks;
+    return self.share(passes[p].half, h) * posture_strength(self.strengths_[h]);
+  };
+  for (size_t h = in_force.begin; h < last; ++h) {
+    // The characters of this style share the reading of its weights.
+    size_t rows = 0;
+    for (size_t p = 0; p < passes.size(); ++p) {
+      if (strength(p, h) == 0) continue;
+      std::copy_n(activations.row(p), count, gathered.row(rows));
+      who[rows++] = p;
+    }
+    if (rows == 0) continue;
+    const PackedLayer& reduction = m.reductions_[h];
+    ScratchArena rest = room;
+    const Rows<float> reduced = rest.rows(rows, reduction.width());
+    reduction.forward({gathered.first, rows, gathered.stride}, reduced);
+    for (size_t k = 0; k < rows; ++k) {
+      const float open = memory(passes[who[k]]).gate;
+      for (size_t i = 0; i < reduction.width(); ++i) reduced.row(k)[i] *= open;
+    }
+    const Rows<float> answers = rest.rows(rows, heads.layers[h].width());
+    heads.layers[h].forward(Rows<const float>(reduced), answers);
+    for (size_t k = 0; k < rows; ++k) {
+      add_scaled(strength(who[k], h), {answers.row(k), heads.outputs}, memory(passes[who[k]]).pose);
+    }
+  }
 }
 
-void StyleNetworks::write_input(std::span<const float> window,
+void StyleNetworks::write_input(std::span<const float> window, Half half,
                                 std::span<float> input) const noexcept {
   const Model& m = *model_;
   assert(window.size() == m.input_mean_.size());
-  standardise(window, m.input_mean_, m.input_factor_, m.input_clip_, input.first(window.size()));
+  const std::span<float> poses = input.first(window.size());
+  if (half == Half::mirrored) {
+    std::ranges::copy(window, poses.begin());
+    mirror_poses(m.layout(), poses);
+    window = poses;
+  }
+  standardise(window, m.input_mean_, m.input_factor_, m.input_clip_, poses);
   m.recipe().write_style_inputs(strengths_, input.subspan(window.size()));
 }
 
@@ -149,33 +198,43 @@ void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numb
   const size_t inputs = static_cast<size_t>(m.trunks_.inputs());
   const Rows<float> input = arena.rows(passes.size(), inputs);
   for (size_t p = 0; p < passes.size(); ++p) {
-    passes[p].networks->write_input(passes[p].window, {input.row(p), inputs});
+    passes[p].networks->write_input(passes[p].window, passes[p].half, {input.row(p), inputs});
   }
   const std::span<float> scratch = arena.take(m.trunks_.scratch_size(passes.size()));
   const auto hidden = m.trunks_.forward(Rows<const float>(input), scratch);
-  const Rows<const float> activations = shrink(passes, hidden[Model::kPose], arena);
-  using Self = StyleNetworks;
   const Styles in_force = styles_in_force(passes);
-  add_heads(passes, in_force, Model::kPose, activations, arena,
-            [](Self& self) { return std::span(self.pose_out_); });
+  if (m.reductions_.empty()) {
+    const Rows<const float> activations = shrink(passes, hidden[Model::kPose], arena);
+    add_heads(passes, in_force, Model::kPose, activations, arena,
+              [](HalfMemory& half) { return std::span(half.pose); });
+  } else {
+    if (m.gate_.present()) {
+      ScratchArena room = arena;
+      const Rows<float> centred = room.rows(passes.size(), m.gate_.mean.size());
+      ease_gates(passes, hidden[Model::kPose], centred, room);
+    }
+    add_reduced(passes, in_force, scratch, arena);
+  }
   add_heads(passes, in_force, Model::kTiming, hidden[Model::kTiming], arena,
-            [](Self& self) { return std::span(self.timing_out_); });
+            [](HalfMemory& half) { return std::span(half.timing); });
   add_heads(passes, in_force, Model::kContact, hidden[Model::kContact], arena,
-            [](Self& self) { return std::span(self.contact_out_); });
+            [](HalfMemory& half) { return std::span(half.contact); });
   add_learnt(passes, scratch, arena);
   for (const Pass& pass : passes) {
-    std::vector<float>& pose = pass.networks->pose_out_;
+    std::vector<float>& pose = memory(pass).pose;
+    const float share = pass.networks->share(pass.half);
     for (size_t i = 0; i < pose.size(); ++i) {
-      pose[i] = pose[i] * m.output_scale_[i] + m.output_mean_[i];
+      pose[i] = pose[i] * m.output_scale_[i] + share * m.output_mean_[i];
     }
-    for (float& c : pass.networks->contact_out_) c = 1 / (1 + exponential(-c));
+    if (pass.half == Half::mirrored) pass.networks->add_mirrored();
   }
 }
 
 void StyleNetworks::forward(std::span<const float> window, float gate_share) noexcept {
   alignas(kCacheLine) std::array<float, Model::kMaxScratch> numbers;
-  const Pass pass{this, window, gate_share};
-  evaluate({&pass, 1}, numbers);
+  std::array<Pass, kMaxPasses> all;
+  const size_t count = passes(window, gate_share, all);
+  for (const Pass& pass : std::span(all).first(count)) evaluate({&pass, 1}, numbers);
 }
 
 void StyleNetworks::forward_all(std::span<const Pass> passes) noexcept {

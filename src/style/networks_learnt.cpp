@@ -8,18 +8,6 @@
 
 namespace panache {
 
-float StyleNetworks::gate() const noexcept {
-  if (learnt_gates_.empty()) return gate_;
-  const size_t built_in = model_->built_in();
-  float total = 0, sum = 0;
-  for (size_t s = 0; s < strengths_.size(); ++s) {
-    const float strength = std::abs(strengths_[s]);
-    total += strength;
-    sum += strength * (s < built_in ? gate_ : learnt_gates_[s - built_in]);
-  }
-  return total > 0 ? std::min(sum / total, 1.0f) : gate_;
-}
-
 void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const float> scratch,
                                ScratchArena& arena) {
   const Model& m = *passes.front().networks->model_;
@@ -29,18 +17,20 @@ void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const flo
   const std::span<float> activations = room.take(count).first(count);
   const std::span<float> drawn = room.take(count).first(count);
   for (size_t p = 0; p < passes.size(); ++p) {
-    StyleNetworks& self = *passes[p].networks;
+    const StyleNetworks& self = *passes[p].networks;
+    HalfMemory& half = memory(passes[p]);
     bool gathered = false;
     for (size_t k = 0; k < m.learnt_.size(); ++k) {
       const float asked = self.strengths_[first + k];
-      if (asked == 0) continue;
+      const float share = self.share(passes[p].half, first + k);
+      if (asked == 0 || share == 0) continue;
       if (!gathered) m.trunks_.all_layers(Model::kPose, p, passes.size(), scratch, activations);
       gathered = true;
       const Model::Learnt& learnt = m.learnt_[k];
       ScratchArena rest = room;
       const float far = self.leverage(learnt, activations, drawn, rest);
       const float wanted = far > 1 ? 1 / far : 1.0f;
-      float& open = self.learnt_gates_[k];
+      float& open = half.learnt_gates[k];
       if (std::isfinite(far)) ease_gate(wanted, passes[p].gate_share, open);
       for (size_t i = 0; i < count; ++i) {
         drawn[i] = learnt.mean[i] + open * (activations[i] - learnt.mean[i]);
@@ -48,9 +38,10 @@ void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const flo
       const std::span<float> answer = rest.take(learnt.head.width());
       learnt.head.forward({drawn.data(), 1, 0}, {answer.data(), 1, 0});
       constexpr int kChange = StyleDelta::kSize;
-      add_scaled(posture_strength(asked), answer.first<kChange>(), self.pose_out_);
-      add_scaled(movement_strength(asked), answer.subspan<kChange, 1>(), self.timing_out_);
-      add_scaled(movement_strength(asked), answer.subspan<kChange + 1, 2>(), self.contact_out_);
+      const float movement = share * movement_strength(asked);
+      add_scaled(share * posture_strength(asked), answer.first<kChange>(), half.pose);
+      add_scaled(movement, answer.subspan<kChange, 1>(), half.timing);
+      add_scaled(movement, answer.subspan<kChange + 1, 2>(), half.contact);
     }
   }
 }
@@ -76,7 +67,7 @@ void StyleNetworks::activations(std::span<const float> window,
   ScratchArena arena(numbers);
   const size_t inputs = static_cast<size_t>(model_->trunks_.inputs());
   const Rows<float> input = arena.rows(1, inputs);
-  write_input(window, {input.row(0), inputs});
+  write_input(window, Half::captured, {input.row(0), inputs});
   const std::span<float> scratch = arena.take(model_->trunks_.scratch_size(1));
   model_->trunks_.forward(Rows<const float>(input), scratch);
   model_->trunks_.all_layers(Model::kPose, 0, 1, scratch, out);

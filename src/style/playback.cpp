@@ -14,7 +14,7 @@ constexpr double kBlend = 0.2;         // Seconds from the old head to the new o
 // Time constant for predictions beyond the newest pose, which are noisier than motion.
 constexpr float kLeadSeconds = 0.04f;
 
-float smooth(double t) { return static_cast<float>(t * t * (3 - 2 * t)); }
+float blend_share(double t) { return static_cast<float>(t * t * (3 - 2 * t)); }
 
 }  // namespace
 
@@ -126,7 +126,7 @@ void Playback::blend_from_old(double seconds, double played, Pose shown) noexcep
   old_ahead_ = std::clamp(old_ahead_ + played - seconds, -options_.max_lag, options_.max_lead);
   const Pose old{old_rotations_, old_translations_};
   pose_at(old_ahead_, old_offset_, old);
-  const float share = smooth(blended_);
+  const float share = blend_share(blended_);
   for (size_t j = 0; j < shown.rotations.size(); ++j) {
     shown.rotations[j] = nlerp(old.rotations[j], shown.rotations[j], share);
     shown.translations[j] = lerp(old.translations[j], shown.translations[j], share);

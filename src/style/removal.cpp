@@ -64,6 +64,7 @@ Result<Restyled> restyle_without(const Clip& clip, const Rig& rig, const Removal
   };
   RestyleOptions plain = options;
   plain.stylizer.shape = {};
+  plain.stylizer.sides = {};
   plain.stylizer.hold_hands = false;
   Result<Restyled> neutral =
       restyle(clip, rig, removal.remover, {{removal.style, {{0, 1}}}}, plain, part(0));

@@ -23,8 +23,9 @@ struct Removal {
   int style = 0;  // Index in the remover.
 };
 
-// Takes the style off the clip, then calls restyle(). Shape and tracks apply to the styles that are
-// put on; times are seconds of the clip. With all strengths at 0 the result is the neutral motion.
+// Takes the style off the clip, then calls restyle(). Shape, sides and tracks apply to the styles
+// that are put on; times are seconds of the clip. With all strengths at 0 the result is the neutral
+// motion.
 Result<Restyled> restyle_without(const Clip& clip, const Rig& rig, const Removal& removal,
                                  const std::shared_ptr<const Model>& model,
                                  const std::vector<StrengthTrack>& tracks,

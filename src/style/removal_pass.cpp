@@ -10,6 +10,7 @@ Result<RemovalPass> RemovalPass::create(std::shared_ptr<const Model> remover, Ri
                                         StylizerOptions options) {
   if (Result<int> any = find_removal(*remover, ""); !any) return any.error();
   options.shape = {};
+  options.sides = {};
   options.hold_hands = false;
   Result<Stylizer> stylizer = Stylizer::create(std::move(remover), std::move(rig), options);
   if (!stylizer) return stylizer.error();

@@ -12,7 +12,7 @@ namespace panache {
 
 class RemovalPass {
  public:
-  // `options`: all but the shape is used. Fails if `remover` puts styles on, or if
+  // `options`: all but shape and sides is used. Fails if `remover` puts styles on, or if
   // Stylizer::create() fails.
   static Result<RemovalPass> create(std::shared_ptr<const Model> remover, Rig rig,
                                     StylizerOptions options);

@@ -87,14 +87,8 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig,
                          const std::shared_ptr<const Model>& model,
                          const std::vector<StrengthTrack>& tracks, const RestyleOptions& options,
                          const std::function<void(double)>& progress) {
-  if (Result<void> good = check(options.stylizer); !good) return good.error();
-  const bool gestures = options.stylizer.gesture_rate > 0;
-  if (gestures && options.loop == LoopMode::force) {
-    return Error{
-        "the motion cannot be a loop with gestures at random, which no round repeats; "
-        "leave out one of the two"};
-  }
-  bool loop = options.loop != LoopMode::off && !gestures;
+  if (Result<void> good = check(options.stylizer, *model); !good) return good.error();
+  bool loop = options.loop != LoopMode::off;
   if (loop) {
     const LoopSeam seam = measure_seam(clip, rig);
     const Result<void> even = check_strengths(seam, clip.frame_time, *model, tracks);
@@ -105,9 +99,10 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig,
       loop = even.ok() && is_loop(seam, clip.frame_time);
     }
   }
-  const auto make_source = [&] {
-    return std::make_unique<TrackedStyles>(model, tracks, options.stylizer);
-  };
+  // No round of a loop would repeat gestures at random.
+  StylizerOptions how = options.stylizer;
+  if (loop) how.gesture_rate = 0;
+  const auto make_source = [&] { return std::make_unique<TrackedStyles>(model, tracks, how); };
   return play_clip(clip, rig, make_source, loop, options, progress);
 }
 

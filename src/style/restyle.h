@@ -26,10 +26,10 @@ struct StrengthTrack {
 };
 
 // Whether a clip is restyled as a loop, so that its last pose equals its first, except for travel.
+// A loop has no gestures at random.
 enum class LoopMode {
   off,
-  // If it is a loop (is_loop()), strengths are equal at both ends, and there are no random
-  // gestures.
+  // If it is a loop (is_loop()) and strengths are equal at both ends.
   detect,
   force,  // Otherwise restyle() fails and says why.
 };

@@ -26,11 +26,12 @@ void Stepper::forget() noexcept {
   flight_ = 0;
 }
 
-void Stepper::set_next(ConstPose next, double seconds) noexcept {
+NextPose Stepper::see_next(ConstPose next, double seconds) noexcept {
   reset();
   observer_.observe(next, 0);
-  next_ = {observer_.now().world.positions, static_cast<float>(seconds)};
+  const NextPose seen = {observer_.now().world.positions, static_cast<float>(seconds)};
   observer_.reset();
+  return seen;
 }
 
 AskedChange Stepper::step(ConstPose in, const StepMoment& moment, ChangeSource& source, Pose out,
@@ -59,8 +60,8 @@ Seen Stepper::take_in(ConstPose in, const StepMoment& moment, std::span<float> r
   if (output_seconds > Observer::kMaxGap) observer_.reset();
   if (!observer_.observe(in, input_seconds)) forget();
   tell(clock, Stage::observe);
-  const StepTime time{input_seconds, static_cast<float>(output_seconds), !started_,
-                      next_.seconds > 0 ? &next_ : nullptr, moment.clip_seconds};
+  const StepTime time{input_seconds, static_cast<float>(output_seconds), !started_, moment.next,
+                      moment.clip_seconds};
   const Observation& now = observer_.now();
   const std::span<const float> window = window_.step(now, time, room);
   flights_.push(window_.time(), now.world.positions);
@@ -74,7 +75,6 @@ void Stepper::give_out(const AskedChange& asked, const Seen& seen, Pose out) noe
   observer_.write(stages_.change(), out);
   tell(seen.clock, kWriteStage);
   started_ = true;
-  next_.seconds = 0;
 }
 
 }  // namespace panache

@@ -20,7 +20,8 @@ struct StepMoment {
   // FlightWatch::amount(), if a play head has seen later poses. Otherwise it is derived from the
   // poses so far.
   std::optional<float> flight = {};
-  double clip_seconds = 0;  // See StepTime::clip.
+  double clip_seconds = 0;         // See StepTime::clip.
+  const NextPose* next = nullptr;  // See StepTime::next, from Stepper::see_next().
 };
 
 // Only the constructor allocates, unless the source does; nothing fails.
@@ -31,9 +32,9 @@ class Stepper {
 
   // Forgets the motion so far.
   void reset() noexcept;
-  // Call before the first step of a motion if its second pose is known: the first step then knows
-  // whether the body moves.
-  void set_next(ConstPose next, double seconds) noexcept;
+  // For the moment of the first step of a motion, if its second pose is known: the step then knows
+  // whether the body moves. Forgets the motion so far.
+  NextPose see_next(ConstPose next, double seconds) noexcept;
   // See Stylizer::step(). Returns the source's request; `clock` may be null.
   AskedChange step(ConstPose in, const StepMoment& moment, ChangeSource& source, Pose out,
                    StageClock* clock = nullptr) noexcept;
@@ -77,7 +78,6 @@ class Stepper {
   ChangeStages stages_;
   FlightWatch flights_;
   float flight_ = 0;  // FlightWatch::amount() at the last step.
-  NextPose next_;     // From set_next(), for the first step; 0 seconds: none.
 };
 
 }  // namespace panache

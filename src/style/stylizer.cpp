@@ -8,7 +8,7 @@ namespace panache {
 
 Result<Stylizer> Stylizer::create(std::shared_ptr<const Model> model, Rig rig,
                                   const StylizerOptions& options) {
-  if (Result<void> good = check(options); !good) return good.error();
+  if (Result<void> good = check(options, *model); !good) return good.error();
   return Stylizer(std::move(model), std::move(rig), options);
 }
 

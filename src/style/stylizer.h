@@ -29,6 +29,14 @@ class Stylizer {
   // The shape from the next step on; eased in. reset() keeps it.
   void set_shape(const Shape& shape) noexcept { source_.set_shape(shape); }
 
+  // The side of a style from the next step on: 1 as captured, which it is at first, -1 mirrored, 0
+  // symmetric; clamped, and eased in. reset() keeps it. An index out of range, a side that is not
+  // finite and, in a model without a head per style, all sides are ignored.
+  void set_side(int style, float side) noexcept { source_.set_side(style, side); }
+
+  // See StylizerOptions::gesture_rate; from the next step on.
+  void set_gesture_rate(float rate) noexcept { source_.set_gesture_rate(rate); }
+
   // Plays a gesture of a style, scaled by its strength, as soon as no other plays and a foot is
   // down, see GesturePlayer::trigger(). Returns false if the model has no such gesture.
   bool trigger(int style, int gesture) noexcept { return source_.trigger(style, gesture); }

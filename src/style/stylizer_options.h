@@ -2,6 +2,7 @@
 // Options for restyling a character, with any source of change.
 
 #include <cstdint>
+#include <vector>
 
 #include "base/result.h"
 #include "pose/observer.h"
@@ -21,16 +22,21 @@ struct StylizerOptions {
   // Use the style's tempo even while the feet stand; otherwise such motion keeps the input's time.
   bool tempo_everywhere = false;
   Shape shape;  // Initially, see Stylizer::set_shape().
+  // Initially, see Stylizer::set_side(): one per style, -1 to 1; empty: all 1.
+  std::vector<float> sides;
   // Faster hips over the ground, m/s, count as a cut, and the past is forgotten. Bodies on vehicles
   // need more; infinity: no cuts.
   float max_speed = Observer::kMaxGroundSpeed;
-  // Random gestures of the active styles per second, 0 to GesturePlayer::kMaxRate. Characters with
-  // different seeds play them at different times.
-  float gesture_rate = 0;
+  // How often the active styles play their gestures: 1 as often as their takes do, 0 not at all; to
+  // GesturePlayer::kMaxOften. Characters with different seeds play them at different times.
+  float gesture_rate = 1;
   uint32_t gesture_seed = 0;
 };
 
-// Fails with a message if an option is out of range.
-Result<void> check(const StylizerOptions& options);
+class Model;
+
+// Fails with a message if an option is out of range, or if the sides do not suit the model's
+// styles.
+Result<void> check(const StylizerOptions& options, const Model& model);
 
 }  // namespace panache

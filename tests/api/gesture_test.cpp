@@ -35,10 +35,18 @@ TEST_F(Gestures, a_trigger_plays_one_and_says_where_there_is_none) {
   panache_character_destroy(plain);
 }
 
-TEST_F(Gestures, at_random_they_are_an_option_that_an_older_program_does_not_set) {
-  const auto walk_with = [&](const panache_character_options& options) {
+TEST_F(Gestures, are_played_as_often_as_the_option_says_and_not_for_an_older_program) {
+  std::string rates;
+  for (int i = 0; i < panache_model_style_count(model_); ++i)
+    rates += i == scared() ? "1\\n" : "\\n";
+  const std::string bytes =
+      panache::test::with_list(panache::test::model_bytes(), "style_gesture_rates", rates);
+  panache_model* model = nullptr;
+  ASSERT_EQ(panache_model_create(bytes.data(), bytes.size(), &model), PANACHE_OK)
+      << panache_last_error();
+  const auto walk_with = [&](const panache_character_options* options) {
     panache_character* out = nullptr;
-    EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &out), PANACHE_OK)
+    EXPECT_EQ(panache_character_create(model, skeleton_, options, &out), PANACHE_OK)
         << panache_last_error();
     panache_character_set_strength(out, scared(), 1);
     const auto walked = walk(out, 240);
@@ -46,20 +54,24 @@ TEST_F(Gestures, at_random_they_are_an_option_that_an_older_program_does_not_set
     return walked;
   };
   panache_character_options options = PANACHE_CHARACTER_OPTIONS;
-  const auto plain = walk_with(options);
-  options.gesture_rate = 1;
-  const auto some = walk_with(options);
-  EXPECT_FALSE(same(some, plain));
-  EXPECT_TRUE(same(some, walk_with(options)));
+  const auto some = walk_with(&options);
+  EXPECT_TRUE(same(some, walk_with(nullptr)));
+  EXPECT_TRUE(same(some, walk_with(&options)));
   options.gesture_seed = 7;
-  EXPECT_FALSE(same(some, walk_with(options)));
+  EXPECT_FALSE(same(some, walk_with(&options)));
+  options.gesture_seed = 0;
+  options.gesture_rate = 0;
+  const auto none = walk_with(&options);
+  EXPECT_FALSE(same(some, none));
+  options.gesture_rate = 1;
   options.struct_size = offsetof(panache_character_options, gesture_rate);
-  EXPECT_TRUE(same(plain, walk_with(options)));
+  EXPECT_TRUE(same(none, walk_with(&options)));
   options.struct_size = sizeof options;
   options.gesture_rate = -1;
-  panache_character* none = nullptr;
-  EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &none), PANACHE_BAD_ARGUMENT);
+  panache_character* rejected = nullptr;
+  EXPECT_EQ(panache_character_create(model, skeleton_, &options, &rejected), PANACHE_BAD_ARGUMENT);
   EXPECT_EQ(std::string(panache_last_error()).substr(0, 16), "gesture rate of ");
+  panache_model_destroy(model);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ ENDS_WITH(panache_skeleton_options, human_joints);
 ENDS_WITH(panache_character_options, gesture_seed);
 ENDS_WITH(panache_shape, foot_lock);
 ENDS_WITH(panache_report, ahead);
-ENDS_WITH(panache_stylize_options, gesture_seed);
+ENDS_WITH(panache_stylize_options, sides);
 ENDS_WITH(panache_retarget_options, meet_hands);
 ENDS_WITH(panache_learnt_report, certainty);
 

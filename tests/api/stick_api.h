@@ -22,6 +22,22 @@ inline std::string file_bytes(const char* name) {
 }
 inline std::string model_bytes() { return file_bytes("panache.safetensors"); }
 
+// The model file with another list in its metadata, in place of its own. `lines` is escaped for
+// JSON.
+inline std::string with_list(std::string model, const std::string& key, const std::string& lines) {
+  const size_t own = model.find('"' + key + '"');
+  if (own != std::string::npos) model[own + 1] = 'x';
+  std::string entry = '"' + key + "\":\"" + lines + "\",";
+  entry.resize((entry.size() + 7) / 8 * 8, ' ');  // Tensors stay aligned.
+  uint64_t size = 0;
+  std::memcpy(&size, model.data(), sizeof(size));
+  size += entry.size();
+  const std::string metadata = "\"__metadata__\":{";
+  const size_t begin = model.find(metadata) + metadata.size();
+  std::string out(reinterpret_cast<const char*>(&size), sizeof(size));
+  return out + model.substr(sizeof(size), begin - sizeof(size)) + entry + model.substr(begin);
+}
+
 // The stick figure's walk as a BVH file in centimetres; its joints turn about x alone.
 inline std::string walk_bvh(int frames) {
   std::ostringstream out;

@@ -81,7 +81,19 @@ assert settings.sliders_shown(armature.panache, groups[''], False) == ['limp']
 
 assert bpy.ops.panache.bake() == {'FINISHED'}
 assert armature.animation_data.action.name == 'walk (limp 1)'
-assert checks.channels(armature.animation_data.action) != before
+captured = checks.channels(armature.animation_data.action)
+assert captured != before
+
+# A style on its other side, whose slider shows while it is moved.
+assert settings.other_side('to the left') == 'to the right'
+assert not settings.has_side_shown(armature.panache, 'limp')
+armature.animation_data.action = walk
+armature.panache.sides.limp = armature.panache.sides.old = -1
+assert settings.has_side_shown(armature.panache, 'limp')
+assert settings.sides(armature) == {'limp': -1}
+assert bpy.ops.panache.bake() == {'FINISHED'}
+assert checks.channels(armature.animation_data.action) not in (captured, before)
+armature.panache.sides.limp = armature.panache.sides.old = 1
 
 # And one from the styled action alone.
 armature.panache.neutral = None

@@ -31,6 +31,7 @@ class StyleLibraryTest : public ProgramTest {
     add_learnt(model, 0, "limping", "limp.bvh");
     model.tensors["learnt.0.gesture.0"] = glance();
     model.tensors["gesture.1.0"] = glance();  // Of 'old'.
+    model.metadata["style_gesture_rates"] = "\n0.5\n\n\n\n";
     model.metadata["style_sources"] = "\n\n\n\nmy own capture\n";
     model.metadata["style_licences"] = "\n\n\n\nCC0\n";
     write("mine.safetensors", format_safetensors(model));
@@ -39,11 +40,13 @@ class StyleLibraryTest : public ProgramTest {
 
 TEST_F(StyleLibraryTest, styles_are_listed_with_their_gestures) {
   const std::string text = run({"styles", "mine.safetensors"}).out;
-  EXPECT_NE(text.find("  old      looks old\n           gestures: head turns left, 1.2 s\n"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("  old      looks old\n           gestures, 0.5 a second: glances left, 1.2 s\n"),
+      std::string::npos)
       << text;
   const auto printed = nlohmann::json::parse(run({"styles", "mine.safetensors", "--json"}).out);
-  EXPECT_EQ(printed["styles"][1]["gestures"], nlohmann::json({"head turns left, 1.2 s"}));
+  EXPECT_EQ(printed["styles"][1]["gestures"], nlohmann::json({"glances left, 1.2 s"}));
+  EXPECT_EQ(printed["styles"][1]["gesture_rate"], "0.5");
   EXPECT_TRUE(printed["styles"][0]["gestures"].empty());
   EXPECT_EQ(printed["styles"][4]["source"], "my own capture");
   EXPECT_EQ(printed["styles"][4]["licence"], "CC0");
@@ -72,7 +75,7 @@ TEST_F(StyleLibraryTest, a_folder_of_style_files_is_a_library) {
     const std::string picture = style["thumbnail"];
     EXPECT_TRUE(picture.starts_with("<svg ") && picture.ends_with("</svg>")) << picture;
     EXPECT_LE(picture.size(), 12'000u);
-    EXPECT_EQ(style["gestures"], nlohmann::json({"head turns left, 1.2 s"}));
+    EXPECT_EQ(style["gestures"], nlohmann::json({"glances left, 1.2 s"}));
   }
   EXPECT_EQ(printed["styles"][0]["style_licence"], "CC0");
   // What is not readable is told, and the others are listed.
@@ -100,22 +103,27 @@ TEST_F(StyleLibraryTest, a_style_keeps_all_that_is_said_of_it_on_its_way) {
   EXPECT_TRUE(twice.tensors.contains("gesture.0"));
 }
 
-TEST_F(StyleLibraryTest, gestures_are_thrown_in_at_the_rate_asked_for) {
+TEST_F(StyleLibraryTest, gestures_are_played_as_often_as_asked_for) {
   write_walk("walk.bvh", 240);
   const auto stylize = [&](const std::string& out, std::vector<std::string> more) {
     std::vector<std::string> arguments = {"stylize", "walk.bvh", "--model", "mine.safetensors",
-                                          "--style", "old=1",    "--loop",  "off",
-                                          "-o",      out};
+                                          "--style", "old=1",    "-o",      out};
     arguments.insert(arguments.end(), more.begin(), more.end());
+    if (std::ranges::find(more, "--loop") == more.end()) {
+      arguments.insert(arguments.end(), {"--loop", "off"});
+    }
     const Ran ran = run(arguments);
     EXPECT_EQ(ran.exit, 0) << ran.err;
     return read(out);
   };
-  const std::string plain = stylize("plain.bvh", {});
-  EXPECT_EQ(stylize("none.bvh", {"--gestures", "0"}), plain);
-  const std::string some = stylize("some.bvh", {"--gestures", "2"});
-  EXPECT_NE(some, plain);
-  EXPECT_EQ(stylize("again.bvh", {"--gestures", "2"}), some);
+  const std::string some = stylize("some.bvh", {});
+  EXPECT_EQ(stylize("same.bvh", {"--gestures", "1"}), some);
+  const std::string none = stylize("none.bvh", {"--gestures", "0"});
+  EXPECT_NE(some, none);
+  EXPECT_NE(stylize("more.bvh", {"--gestures", "4"}), some);
+  // A loop has none.
+  EXPECT_EQ(stylize("loop.bvh", {"--loop", "auto"}),
+            stylize("0.bvh", {"--loop", "auto", "--gestures", "0"}));
   for (const char* rate : {"-1", "11", "often"}) {
     EXPECT_EQ(run({"stylize", "walk.bvh", "--style", "old=1", "--gestures", rate}).exit, 2);
   }
@@ -128,7 +136,7 @@ TEST_F(StyleLibraryTest, learning_tells_of_gestures_and_keeps_source_and_licence
   for (int f = 90; f <= 135; ++f) {
     const float turn = 0.9f * std::sin(3.14159f * static_cast<float>(f - 90) / 45);
     Quat& rotation = clip.pose(f).rotations[static_cast<size_t>(rig.joints()[index(head)])];
-    rotation = rotation * rotation_y(-turn);
+    rotation = rotation * rotation_y(-0.7f * turn);
   }
   write("nosy.bvh", format_bvh(clip));
   const Ran ran = run({"learn", "neutral.bvh", "nosy.bvh", "--name", "nosy", "--into",
@@ -136,7 +144,7 @@ TEST_F(StyleLibraryTest, learning_tells_of_gestures_and_keeps_source_and_licence
                       "");
   ASSERT_EQ(ran.exit, 0) << ran.err;
   EXPECT_NE(ran.out.find("  gesture in nosy.bvh at "), std::string::npos) << ran.out;
-  EXPECT_NE(ran.out.find(" s: head turns right, "), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find(" s: glances right, "), std::string::npos) << ran.out;
   const auto styles =
       nlohmann::json::parse(run({"styles", "new.safetensors", "--json"}).out)["styles"];
   EXPECT_EQ(styles.back()["gestures"].size(), 1u);

@@ -323,6 +323,36 @@ TEST_F(LiveVerb, what_waits_of_a_sender_is_sent_when_it_makes_room_for_another) 
   EXPECT_EQ(got_.size(), 17u);
 }
 
+TEST_F(LiveVerb, a_message_changes_the_side_of_a_style) {
+  write("walk.bvh", format_bvh(walking_clip(60, 60)));
+  // The mean of both sides holds the head in the middle.
+  const auto sideways = [&](const std::vector<std::string>& options, const Bytes& message) {
+    start_live(options);
+    tracker_.send(in_, message);
+    play(2.5);
+    float sum = 0;
+    size_t count = 0;
+    for (const Bytes& datagram : got_) {
+      for (const auto& [name, bone] : bones_of(datagram)) {
+        if (name == "Chest") sum += bone.rotation.z, ++count;
+      }
+    }
+    got_.clear();
+    EXPECT_GT(count, 60u);
+    EXPECT_EQ(end_live().exit, 0);
+    return sum / static_cast<float>(count);
+  };
+  const Bytes none = style_message("sad", 0);
+  const float captured = sideways({"--style", "old=1"}, none);
+  ASSERT_GT(std::abs(captured), 0.005f);
+  const float mirrored = sideways({"--style", "old=1", "--side", "old=mirrored"}, none);
+  EXPECT_LT(mirrored / captured, 0);
+  const Bytes word = osc("/panache/side") + osc(",ss") + osc("old") + osc("mirrored");
+  EXPECT_NEAR(sideways({"--style", "old=1"}, word), mirrored, 0.2f * std::abs(mirrored));
+  const Bytes number = osc("/panache/side") + osc(",sf") + osc("old") + osc(-1.0f);
+  EXPECT_NEAR(sideways({"--style", "old=1"}, number), mirrored, 0.2f * std::abs(mirrored));
+}
+
 TEST_F(LiveVerb, garbage_does_not_end_it) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
   start_live({"--style", "old=1"});
@@ -354,6 +384,9 @@ TEST_F(LiveVerb, garbage_does_not_end_it) {
   throw_at(osc("/VMC/Ext/Bone/Pos") + osc(",sfffffff") + osc("Hips"));
   throw_at(osc("/panache/style") + osc(",ss") + osc("old") + osc("1"));
   throw_at(style_message("nobody", 1));
+  throw_at(osc("/panache/side") + osc(",ss") + osc("old") + osc("up"));
+  throw_at(osc("/panache/side") + osc(",ss") + osc("nobody") + osc("left"));
+  throw_at(osc("/panache/side") + osc(",s") + osc("old"));
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   throw_at(style_message("old", kNan));
   throw_at(bundle({bone_message("Hips", kNan, 1e38f, kNan), bone_message("Head", 0, 0, 0)}));

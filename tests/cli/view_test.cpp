@@ -250,13 +250,13 @@ TEST_F(ViewVerb, sends_the_stored_gzip_and_nothing_that_the_browser_has) {
   EXPECT_EQ(tag.size(), 18u);
   EXPECT_NE(tag, plain_tag);
   EXPECT_NE(tag, header(answer("/", ""), "ETag"));
-  for (const std::string known : {tag, "W/" + tag, "\"other\", " + tag}) {
+  for (const std::string& known : {tag, "W/" + tag, "\"other\", " + tag}) {
     const std::string same = answer("/main.js", accepts + "If-None-Match: " + known + "\r\n");
     EXPECT_EQ(status(same), "HTTP/1.1 304") << known;
     EXPECT_TRUE(same.ends_with("\r\n\r\n")) << same;
     EXPECT_EQ(header(same, "ETag"), tag);
   }
-  for (const std::string other : {std::string("\"other\""), plain_tag}) {
+  for (const std::string& other : {std::string("\"other\""), plain_tag}) {
     EXPECT_EQ(status(answer("/main.js", accepts + "If-None-Match: " + other + "\r\n")),
               "HTTP/1.1 200");
   }
@@ -278,7 +278,9 @@ TEST_F(ViewVerb, opens_the_browser_of_a_desktop_unless_told_not_to) {
     ::waitpid(server_, nullptr, 0);
     server_ = 0;
     const bool there = std::filesystem::exists(path("opened"));
-    if (there) EXPECT_EQ(read("opened"), line + "\n");
+    if (there) {
+      EXPECT_EQ(read("opened"), line + "\n");
+    }
     return there;
   };
   EXPECT_TRUE(opened(":0", false));

@@ -93,6 +93,23 @@ static class Test {
     }
   }
 
+  static void StylesHaveSides(Model model, Clip walk) {
+    Expect(model.Sides.Count == model.Styles.Count, "a side, or none, for each style");
+    Expect(model.FindSide("old", "captured") == 1 && model.FindSide("old", "mirrored") == -1,
+           "words for sides");
+    using (var plain = new Character(model, walk.Skeleton))
+    using (var mirrored = new Character(model, walk.Skeleton))
+    using (var back = new Character(model, walk.Skeleton)) {
+      foreach (Character one in new[] { plain, mirrored, back }) one.SetStrength("old", 1);
+      mirrored.SetSide("old", "mirrored");
+      back.SetSide("old", -1);
+      back.SetSide("old", "captured");
+      byte[] captured = Play(plain, walk, 0, 60);
+      Expect(!Play(mirrored, walk, 0, 60).SequenceEqual(captured), "another side");
+      Expect(Play(back, walk, 0, 60).SequenceEqual(captured), "the captured side");
+    }
+  }
+
   static void ACharacterIsSavedShapedAndReports(Model model, Clip walk) {
     var options = new CharacterOptions { HoldFeet = 0, MaxLag = 1 };
     using (var character = new Character(model, walk.Skeleton, options)) {
@@ -225,6 +242,7 @@ static class Test {
     Clip walk = Clip.Load(arguments[1]), styled = Clip.Load(arguments[2]);
     StructsAreThoseOfTheHeader(File.ReadAllLines(arguments[7]));
     StepsHaveTheBitsOfC(model, walk, File.ReadAllBytes(arguments[3]));
+    StylesHaveSides(model, walk);
     ACharacterIsSavedShapedAndReports(model, walk);
     ASkeletonIsFoundAmongJoints(model);
     AStyleIsLearnt(model, walk, styled);

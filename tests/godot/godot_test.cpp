@@ -127,6 +127,9 @@ class Reference {
                            {rotations_.data(), translations_.data()});
   }
   void reset() { panache_character_reset(character_); }
+  void set_side(float side) {
+    panache_character_set_side(character_, panache_model_find_style(model_, "old"), side);
+  }
   // Largest difference to the host's bones, of which each is that joint of the walk.
   template <class Place>
   float apart(Place place) const {
@@ -172,6 +175,31 @@ TEST_F(Godot, a_styled_walk_has_the_bits_of_the_library) {
   }
 }
 
+TEST_F(Godot, the_side_of_a_style_is_the_librarys) {
+  void* node = host.make_node();
+  EXPECT_TRUE(host.set(node, "sides/old", -1.0));
+  EXPECT_TRUE(host.set(node, "styles/old", 1.0));
+  EXPECT_TRUE(host.set(node, "model_path", std::string(kModel)));
+  Reference reference(walk_), captured(walk_);
+  reference.set_side(-1);
+  float most = 0;
+  for (int f = 0; f < 90; ++f) {
+    if (f == 60) {
+      host.set(node, "sides/old", 0.5);
+      reference.set_side(0.5f);
+    }
+    animate(f);
+    host.process(node);
+    reference.step(f, host.seconds);
+    captured.step(f, host.seconds);
+    ASSERT_EQ(reference.apart(place), 0) << "frame " << f;
+    most = std::max(most, captured.apart(place));
+  }
+  EXPECT_GT(most, 0.01f);
+  EXPECT_TRUE(host.errors.empty()) << host.errors.front();
+  host.free_node(node);
+}
+
 TEST_F(Godot, bones_before_their_parents_turned_and_scaled_nodes_are_styled_alike) {
   // The other way round: the children come first.
   std::reverse(host.bones.begin(), host.bones.end());
@@ -215,7 +243,7 @@ TEST_F(Godot, properties_are_listed_set_read_and_reverted) {
   EXPECT_EQ(host.type_name, "PanacheCharacter");
   EXPECT_EQ(host.parent_name, "SkeletonModifier3D");
   void* node = host.make_node();
-  EXPECT_EQ(host.properties(node).size(), 3u);
+  EXPECT_EQ(host.properties(node).size(), 5u);
   host.set(node, "model_path", std::string(kModel));
   EXPECT_EQ(host.list_changes, 1);
   std::set<std::string> names;
@@ -224,18 +252,26 @@ TEST_F(Godot, properties_are_listed_set_read_and_reverted) {
     names.insert(name);
     EXPECT_EQ(property.usage, 6u) << name;
     EXPECT_TRUE(host.can_revert(node, name)) << name;
-    if (!name.starts_with("styles/")) continue;
+    const bool is_side = name.starts_with("sides/");
+    if (!is_side && !name.starts_with("styles/")) continue;
     EXPECT_EQ(property.type, Type::real);
     EXPECT_EQ(property.hint, kHintRange);
-    EXPECT_EQ(Host::text_of(property.hint_text), "-1,2,0.01");
+    EXPECT_EQ(Host::text_of(property.hint_text), is_side ? "-1,1,0.01" : "-1,2,0.01");
   }
   EXPECT_TRUE(names.contains("styles/old") && names.contains("styles/proud"));
   EXPECT_TRUE(host.set(node, "styles/proud", 0.5));
   EXPECT_EQ(host.get_real(node, "styles/proud"), 0.5);
   EXPECT_EQ(host.get_real(node, "styles/old"), 0);
+  EXPECT_TRUE(names.contains("sides/old"));
+  EXPECT_EQ(host.get_real(node, "sides/old"), 1);
+  EXPECT_TRUE(host.set(node, "sides/old", -0.5));
+  EXPECT_EQ(host.get_real(node, "sides/old"), -0.5);
   EXPECT_TRUE(host.get_flag(node, "hold_feet"));
   EXPECT_TRUE(host.set(node, "hold_feet", false));
   EXPECT_FALSE(host.get_flag(node, "hold_feet"));
+  EXPECT_EQ(host.get_real(node, "gestures"), 1);
+  EXPECT_TRUE(host.set(node, "gestures", 0.0));
+  EXPECT_EQ(host.get_real(node, "gestures"), 0);
   EXPECT_EQ(host.get_text(node, "model_path"), kModel);
   EXPECT_FALSE(host.set(node, "position", 1.0));
   EXPECT_FALSE(host.can_revert(node, "position"));

@@ -31,11 +31,11 @@ LearntStyle learn(const Clip& styled) {
 TEST(FindGestures, a_glance_is_found_where_it_is_and_kept_with_the_style) {
   for (const float way : {1.0f, -1.0f}) {
     Clip styled = test::bent_walk(8);
-    gesture_in(styled, 3, 4.4, head, {0, 0.9f * way, 0});
+    gesture_in(styled, 3, 4.4, head, {0, 0.7f * way, 0});
     const LearntStyle learnt = learn(styled);
     ASSERT_EQ(learnt.gestures.size(), 1u);
     const LearntGesture& glance = learnt.gestures[0];
-    EXPECT_TRUE(glance.name.starts_with(way > 0 ? "head turns left, " : "head turns right, "))
+    EXPECT_TRUE(glance.name.starts_with(way > 0 ? "glances left, " : "glances right, "))
         << glance.name;
     EXPECT_EQ(glance.take, "styled.bvh");
     EXPECT_NEAR(glance.start, 2.9, 0.3);
@@ -48,7 +48,8 @@ TEST(FindGestures, a_glance_is_found_where_it_is_and_kept_with_the_style) {
     for (float t = 0; t < kept.seconds(); t += 0.05f) {
       most = std::max(most, way * kept.at(t).turns[index(head)].y);
     }
-    EXPECT_NEAR(most, 0.9f, 0.15f);
+    EXPECT_NEAR(most, 0.7f, 0.15f);
+    EXPECT_EQ(learnt.file.metadata.at("gesture_rate"), "0.125") << "one in 8 s";
   }
 }
 
@@ -78,6 +79,8 @@ TEST(FindGestures, the_strongest_four_are_kept_apart) {
   }();
   const LearntStyle learnt = *learn_style(test::shipped_model(), "model", {&pair, 1}, "new", "");
   EXPECT_EQ(learnt.gestures.size(), 4u);
+  // All six count: 6 / 14 s.
+  EXPECT_NEAR(std::stod(learnt.file.metadata.at("gesture_rate")), 0.429, 0.05);
   for (const LearntGesture& a : learnt.gestures) {
     for (const LearntGesture& b : learnt.gestures) {
       if (&a == &b) continue;
@@ -105,11 +108,19 @@ TEST(FindGestures, gestures_go_where_their_style_goes) {
   // A built-in style.
   const Gesture gesture = *Gesture::read(out.tensors.at("gesture.0"), "", "");
   const std::vector<Gesture> two = {gesture, gesture};
-  const TensorFile proud = *set_gestures(with, "proud", two, "m");
+  const TensorFile proud = *set_gestures(with, "proud", two, 0.25f, "m");
   EXPECT_EQ(gestures_of(proud, "proud"), 2u);
   EXPECT_EQ(gestures_of(proud, "old"), gestures_of(with, "old"));
+  const auto rate_of = [](const TensorFile& file, const std::string& style) {
+    const auto model = *Model::create(file, "m");
+    return model->gesture_rate(*model->find_style(style));
+  };
+  EXPECT_EQ(rate_of(proud, "proud"), 0.25f);
+  EXPECT_EQ(rate_of(*remove_style(proud, "angry", "m"), "proud"), 0.25f);
+  EXPECT_EQ(rate_of(proud, "new"), 0.125f);
+  EXPECT_EQ(rate_of(*set_gestures(proud, "proud", {}, 0, "m"), "proud"), 0);
   EXPECT_EQ(gestures_of(*remove_style(proud, "angry", "m"), "proud"), 2u);
-  EXPECT_EQ(gestures_of(*set_gestures(proud, "proud", {}, "m"), "proud"), 0u);
+  EXPECT_EQ(gestures_of(*set_gestures(proud, "proud", {}, 0, "m"), "proud"), 0u);
   const TensorFile taken = *extract_style(proud, "proud", "m");
   EXPECT_TRUE(taken.tensors.contains("gesture.1"));
   EXPECT_EQ(gestures_of(*add_style(test::shipped_model(), "m", taken, "s", true), "proud"), 2u);

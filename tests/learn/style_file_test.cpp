@@ -237,6 +237,28 @@ TEST(StyleFile, styles_keep_their_groups_wherever_they_go) {
   EXPECT_EQ(groups_of(added(removed(mixed_model(), "proud"), proud)), "|moods|||");
 }
 
+TEST(StyleFile, styles_keep_their_sides_wherever_they_go) {
+  TensorFile model = mixed_model();
+  const auto sides_of = [](const TensorFile& file) {
+    const auto parsed = read(file);
+    std::string sides;
+    for (const StyleInfo& style : parsed->styles()) sides += style.side + "|";
+    return sides;
+  };
+  model.metadata["style_sides"] = "right leg\nto the left\n\n\n";
+  const TensorFile proud = extract(model, "proud");
+  EXPECT_EQ(read_style_info(proud, "proud")->side, "to the left");
+  EXPECT_FALSE(extract(model, "limping").metadata.contains("side"));
+  EXPECT_EQ(sides_of(removed(model, "proud")), "right leg|||");
+  EXPECT_EQ(sides_of(added(removed(model, "proud"), proud)), "right leg|to the left|||");
+  EXPECT_EQ(sides_of(*rename_style(model, "old", "aged", "m")), "right leg|to the left|||");
+  TensorFile broken = proud;
+  broken.metadata["side"] = "both arms";
+  EXPECT_EQ(read_style_info(broken, "p.safetensors").error().message,
+            "p.safetensors: metadata 'side': 'both arms'; expected a phrase with the word left or "
+            "right in it once, such as 'left leg'");
+}
+
 TEST(StyleFile, styles_keep_their_other_words_wherever_they_go) {
   TensorFile model = mixed_model();
   model.metadata["style_words"] = "elderly\nvain cocky\n\n\n";

@@ -398,15 +398,54 @@ def test_mistakes_with_types_and_numbers_are_sentences_too(model, walk, walk_fil
     assert rejection(panache.Model).endswith('the shipped models are missing')
 
 
-def test_styles_have_the_groups_of_the_model(model):
+def with_list(model, key, lines):
+    """The model with a list of its own in its metadata."""
     size = int.from_bytes(model.content[:8], 'little')
     header = json.loads(model.content[8:8 + size])
-    groups = [f'gröup {i // 2}' for i in range(len(model.styles))]
-    header['__metadata__']['style_groups'] = ''.join(group + '\n' for group in groups)
+    header['__metadata__'][key] = ''.join(line + '\n' for line in lines)
     text = json.dumps(header).encode()
     text += b' ' * (-len(text) % 8)
-    content = len(text).to_bytes(8, 'little') + text + model.content[8 + size:]
-    assert panache.Model(content).groups == groups
+    return panache.Model(len(text).to_bytes(8, 'little') + text + model.content[8 + size:])
+
+
+def test_styles_have_the_groups_of_the_model(model):
+    groups = [f'gröup {i // 2}' for i in range(len(model.styles))]
+    assert with_list(model, 'style_groups', groups).groups == groups
+
+
+def test_styles_have_sides(model, walk):
+    sides = ['right leg' if style == 'old' else '' for style in model.styles]
+    model = with_list(model, 'style_sides', sides)
+    assert model.sides == sides
+
+    def clip(side):
+        return panache.stylize(model, walk, {'old': 1}, sides={'Old': side}).rotations.tobytes()
+
+    captured, mirrored = clip(1), clip('left')
+    assert captured == panache.stylize(model, walk, {'old': 1}).rotations.tobytes() != mirrored
+    assert clip('right') == clip('captured') == captured
+    assert clip('mirrored') == clip(-1) == mirrored
+
+    def steps(*sides):
+        character = panache.Character(model, walk.skeleton)
+        character.set_strength('old', 1)
+        for side in sides:
+            character.set_side('old', side)
+        return [character.stylize(rotations, translations, walk.frame_seconds)[0].tobytes()
+                for rotations, translations in zip(walk.rotations, walk.translations)]
+
+    assert steps() == steps('captured') == steps('left', 'right') != steps('left') == steps(-1)
+    character = panache.Character(model, walk.skeleton)
+    for style, side, message in [
+            ('old', 'up', "unknown side 'up' of style 'old'; expected left, right, captured"),
+            ('proud', 'left', 'expected captured, mirrored or a number from -1 to 1'),
+            ('old', 2, 'side of old: expected -1 to 1, found 2'),
+            ('old', None, "side of old: expected a number, found 'None'"),
+            ('olld', 1, "unknown style 'olld'")]:
+        with pytest.raises(panache.PanacheError, match=message):
+            character.set_side(style, side)
+        with pytest.raises(panache.PanacheError, match=message):
+            panache.stylize(model, walk, {'old': 1}, sides={style: side})
 
 
 def test_gestures_are_listed_triggered_and_thrown_in(model, walk):
@@ -421,14 +460,17 @@ def test_gestures_are_listed_triggered_and_thrown_in(model, walk):
         return [character.stylize(rotations, translations, walk.frame_seconds)[0].tobytes()
                 for rotations, translations in zip(walk.rotations, walk.translations)]
 
-    assert steps() == steps() != steps(ask=1)
-    assert steps(gesture_rate=1) == steps(gesture_rate=1) != steps(gesture_rate=1, gesture_seed=5)
+    assert steps(gesture_rate=0) == steps(gesture_rate=0) != steps(ask=1, gesture_rate=0)
+    model = with_list(model, 'style_gesture_rates',
+                      ['1' if style == 'scared' else '' for style in model.styles])
+    assert steps() == steps() == steps(gesture_rate=1) != steps(gesture_seed=5)
+    assert steps() != steps(gesture_rate=0)
     with pytest.raises(panache.PanacheError, match="style 'robot' has no gesture 0; it has 0"):
         panache.Character(model, walk.skeleton).trigger('robot')
     with pytest.raises(panache.PanacheError, match='gesture rate of'):
         panache.Character(model, walk.skeleton, gesture_rate=-1)
-    plain = panache.stylize(model, walk, {'scared': 1}, loop='off')
-    some = panache.stylize(model, walk, {'scared': 1}, loop='off', gesture_rate=1)
+    plain = panache.stylize(model, walk, {'scared': 1}, loop='off', gesture_rate=0)
+    some = panache.stylize(model, walk, {'scared': 1}, loop='off')
     assert plain.rotations.tobytes() != some.rotations.tobytes()
 
 

@@ -90,6 +90,7 @@ int main() {
   FIELD(stylize_options, remover);
   FIELD(stylize_options, gesture_rate);
   FIELD(stylize_options, gesture_seed);
+  FIELD(stylize_options, sides);
   STRUCT(retarget_options);
   FIELD(retarget_options, struct_size);
   FIELD(retarget_options, hold_feet);

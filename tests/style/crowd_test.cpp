@@ -37,7 +37,11 @@ struct Actor {
         strengths(std::move(strengths_)),
         stylizer(*Stylizer::create(std::move(model), *Rig::create(clip))),
         rotations(clip.joints()),
-        translations(clip.joints()) {}
+        translations(clip.joints()) {
+    // Some have one pass, some two.
+    if (start % 3 == 1) stylizer.set_side(0, -1);
+    if (start % 3 == 2) stylizer.set_side(1, 0.3f);
+  }
 
   ConstPose in(int step) const { return clip.pose((start + step) % clip.frames); }
   CrowdMember member(int step) {

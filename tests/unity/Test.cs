@@ -257,6 +257,30 @@ static class Test {
     Debug.Errors.Clear();
   }
 
+  static void SidesAreTheLibrarys(TextAsset file, Panache.Model model) {
+    var actor = new Actor(file);
+    actor.Component.SetStrength("old", 1);
+    actor.Component.SetSide("OLD", -1);
+    actor.Start();
+    var reference = new Reference(model);
+    reference.Character.SetStrength("old", 1);
+    reference.Character.SetSide("old", -1);
+    var captured = new Reference(model);
+    captured.Character.SetStrength("old", 1);
+    float apart = 0;
+    for (int f = 0; f < 120; ++f) {
+      if (f == 60) {
+        actor.Component.SetSide("old", 0.5f);
+        reference.Character.SetSide("old", 0.5f);
+      }
+      float[] pose = reference.Play(f);
+      Expect(actor.Play(f).SequenceEqual(pose), "the library's pose in frame " + f);
+      apart = Math.Max(apart, Apart(captured.Play(f), pose));
+    }
+    Expect(apart > 0.01f, "another side than the captured one");
+    Expect(actor.Component.styles.Count == 1, "one entry for a style");
+  }
+
   static void ATeleportStartsAfresh(TextAsset file, Panache.Model model) {
     var actor = new Actor(file);
     actor.Component.SetStrength("old", 1);
@@ -334,6 +358,7 @@ static class Test {
     StrengthZeroChangesNoBit(file);
     APoseThatWasNotAnimatedIsNotStyledTwice(file);
     StrengthsAreAListThatMayChange(file, model);
+    SidesAreTheLibrarys(file, model);
     ATeleportStartsAfresh(file, model);
     AvatarsMayLackBones(file);
     WhatIsMissingIsTold(file);

@@ -161,19 +161,87 @@ class Hash {  // FNV-1a of the bits.
   toString() { return this.#value.toString(16).padStart(16, '0'); }
 }
 
-test('styles have the groups of the model', async () => {
+// The model with a list of its own in its metadata.
+async function withList(key, lines) {
   const bytes = await readFile(join(root, 'models/panache-int8.safetensors'));
   const size = Number(bytes.readBigUInt64LE());
   const header = JSON.parse(bytes.subarray(8, 8 + size).toString());
-  const groups = panache.styles.map((_, i) => `gröup ${i >> 1}`);
-  header.__metadata__.style_groups = groups.map((group) => `${group}\n`).join('');
+  header.__metadata__[key] = lines.map((line) => `${line}\n`).join('');
   const text = Buffer.from(JSON.stringify(header));
   const padded = Buffer.concat([text, Buffer.alloc((8 - (text.length % 8)) % 8, ' ')]);
   const length = Buffer.alloc(8);
   length.writeBigUInt64LE(BigInt(padded.length));
+  return Buffer.concat([length, padded, bytes.subarray(8 + size)]);
+}
+
+test('styles have the groups of the model', async () => {
+  const groups = panache.styles.map((_, i) => `gröup ${i >> 1}`);
   const own = panache.modelBytes;
-  panache.setModel(Buffer.concat([length, padded, bytes.subarray(8 + size)]));
+  panache.setModel(await withList('style_groups', groups));
   assert.deepEqual(panache.styles.map(({ group }) => group), groups);
+  panache.setModel(own);
+});
+
+test('styles have sides, which characters, clips and players take', async () => {
+  const own = panache.modelBytes;
+  panache.setModel(await withList('style_sides',
+    panache.styles.map(({ name }) => (name === 'old' ? 'right leg' : ''))));
+  const { joints, made } = skeleton();
+  const frames = 60;
+  const clip = {
+    rotations: Float32Array.from({ length: 4 * joints.length * frames },
+      (_, i) => joints[(i >> 2) % joints.length].rotation[i % 4]),
+    translations: Float32Array.from({ length: 3 * joints.length * frames },
+      (_, i) => joints[Math.floor(i / 3) % joints.length].translation[i % 3]),
+    frameSeconds: 1 / 60,
+  };
+  assert.equal(panache.styles.find(({ name }) => name === 'old').side, 'right leg');
+  const styled = (side) => panache.stylizeClip(made, clip, { old: 1 },
+    { sides: side === undefined ? {} : { old: side } }).rotations.join();
+  const captured = styled(), mirrored = styled('mirrored');
+  assert.notEqual(captured, mirrored);
+  for (const side of ['captured', 'right', 1]) assert.equal(styled(side), captured, side);
+  for (const side of ['left', -1]) assert.equal(styled(side), mirrored, side);
+  assert.notEqual(styled(0), captured);
+
+  const steps = (side) => {
+    const character = panache.createCharacter(made);
+    character.setStrength('old', 1);
+    if (side !== undefined) character.setSide('Old', side);
+    const pose = { rotations: clip.rotations.slice(0, 4 * joints.length),
+      translations: clip.translations.slice(0, 3 * joints.length) };
+    const out = { rotations: pose.rotations.slice(), translations: pose.translations.slice() };
+    for (let f = 0; f < 30; ++f) character.step(pose, out, 1 / 60);
+    character.free();
+    return out.rotations.join();
+  };
+  assert.equal(steps('right'), steps());
+  assert.notEqual(steps('left'), steps());
+  const character = panache.createCharacter(made);
+  refusal(() => character.setSide('old', 'up'),
+    /^side of 'old': expected 'captured', 'mirrored', 'left', 'right' or a number from -1 to 1, found 'up'$/);
+  refusal(() => character.setSide('proud', 'left'),
+    /^side of 'proud': expected 'captured', 'mirrored' or a number from -1 to 1, found 'left'$/);
+  refusal(() => character.setSide('old', 2), /found 2$/);
+  character.free();
+  made.free();
+
+  const withWalker = await createWithWalker(await read('models/walker.safetensors'));
+  withWalker.setModel(panache.modelBytes);
+  const walked = (side) => {
+    const walk = withWalker.createWalker();
+    walk.setStrength('old', 1);
+    if (side !== undefined) walk.setSide('old', side);
+    for (let f = 0; f < 30; ++f) walk.step(1 / 60);
+    walk.setTiming('off');  // Makes the character again.
+    for (let f = 0; f < 30; ++f) walk.step(1 / 60);
+    const parts = walk.parts('styled').join();
+    walk.free();
+    return parts;
+  };
+  assert.equal(walked('captured'), walked());
+  assert.notEqual(walked('mirrored'), walked());
+  withWalker.free();
   panache.setModel(own);
 });
 
@@ -570,7 +638,10 @@ test('a character tells what went on, and what is wrong is said in a sentence', 
   made.free();
 });
 
-test('gestures are listed, triggered and thrown in at random', () => {
+test('gestures are listed, triggered and played as often as in the takes', async () => {
+  const own = panache.modelBytes;
+  panache.setModel(await withList('style_gesture_rates',
+    panache.styles.map(({ name }) => (name === 'scared' ? '1' : ''))));
   const gesturesOf = (style) => panache.styles.find(({ name }) => name === style).gestures;
   assert.ok(gesturesOf('scared').length > 0 && gesturesOf('scared').every((name) => / s$/.test(name)));
   assert.deepEqual(gesturesOf('robot'), []);
@@ -591,15 +662,17 @@ test('gestures are listed, triggered and thrown in at random', () => {
     character.free();
     return shown.join();
   };
-  assert.equal(stand(), stand());
-  assert.notEqual(stand(), stand({}, 1));
-  assert.equal(stand({ gestureRate: 1 }), stand({ gestureRate: 1 }));
-  assert.notEqual(stand(), stand({ gestureRate: 1 }));
+  const silent = { gestureRate: 0 };
+  assert.equal(stand(silent), stand(silent));
+  assert.notEqual(stand(silent), stand(silent, 1));
+  assert.equal(stand(), stand({ gestureRate: 1 }));
+  assert.notEqual(stand(), stand(silent));
   const character = panache.createCharacter(made);
   refusal(() => character.trigger('robot'), /^style 'robot' has no gesture 0; it has 0$/);
   refusal(() => panache.createCharacter(made, { gestureRate: -1 }), /^gesture rate of -1/);
   character.free();
   made.free();
+  panache.setModel(own);
 });
 
 test('what is no skeleton, strength, key or file is rejected with what was found', async () => {

@@ -28,6 +28,7 @@ class Model:
             except (PanacheError, OSError) as error:
                 self.problems.append('%s: %s' % (name, error))
         self.styles = self.all.styles
+        self.sides = dict(zip(self.styles, self.all.sides))  # 'right leg', or ''.
         # {group: its styles}, in the model's order; '' holds styles without a group.
         self.groups = {}
         for style, group in zip(self.styles, self.all.groups):

@@ -117,8 +117,7 @@ class PANACHE_OT_bake(_OnArmature, bpy.types.Operator):
         armature.panache.preview = False
         strengths = settings.strengths(armature)
         sampled = yield from _part(0, _SAMPLING, sampling.Sampled.reading(context, armature, action))
-        styled = sampled.stylize(settings.model(), strengths, settings.shape(armature),
-                                 armature.panache.timing_where)
+        styled = sampled.stylize(settings.model(), strengths, settings.options(armature))
         preview.note(armature, sampled, styled, controls.Plan(armature, sampled.joints))
         styles = ', '.join('%s %s' % (name, _amount(value)) for name, value in strengths.items())
         new = yield from _part(_SAMPLING, 1, baking.bake(
@@ -139,7 +138,7 @@ class PANACHE_OT_look(_OnArmature, bpy.types.Operator):
         action = self.source(armature)
         sampled = sampling.Sampled(context, armature, action)
         styled = sampled.stylize(settings.model(), settings.strengths(armature),
-                                 settings.shape(armature), armature.panache.timing_where)
+                                 settings.options(armature))
         preview.note(armature, sampled, styled, controls.Plan(armature, sampled.joints))
         return {'FINISHED'}
 

@@ -27,6 +27,8 @@ def _draw_styles(layout, found):
                         icon='TRIA_DOWN' if is_open else 'TRIA_RIGHT')
         for name in settings.sliders_shown(found, styles, is_open):
             column.prop(found.styles, settings.property_of(name), slider=True)
+            if settings.has_side_shown(found, name):
+                column.prop(found.sides, settings.property_of(name), slider=True)
 
 
 class PANACHE_PT_style(_Panel, bpy.types.Panel):
@@ -53,6 +55,7 @@ class PANACHE_PT_shape(_Panel, bpy.types.Panel):
         column = self.layout.column(align=True)
         for name in settings.SHAPE:
             column.prop(context.object.panache, name, slider=True)
+        column.prop(context.object.panache, 'gestures', slider=True)
         self.layout.row().prop(context.object.panache, 'timing_where', expand=True)
 
 

@@ -38,8 +38,7 @@ class _State:
     def stylize(self):
         from . import settings
         self.styled = self.sampled.stylize(settings.model(), settings.strengths(self.armature),
-                                           settings.shape(self.armature),
-                                           self.armature.panache.timing_where)
+                                           settings.options(self.armature))
         note(self.armature, self.sampled, self.styled, self.plan)
 
     def show(self, context):

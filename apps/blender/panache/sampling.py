@@ -137,8 +137,9 @@ class Sampled:
             poses=(rotations, translations))
         self.clip = library.Clip(self.skeleton, rotations, translations, frame_seconds)
 
-    def stylize(self, model, strengths, shape, timing):
-        return library.stylize(model.all, self.clip, strengths, shape=shape, timing=timing)
+    def stylize(self, model, strengths, options):
+        """`options`: those of panache.stylize()."""
+        return library.stylize(model.all, self.clip, strengths, **options)
 
     def is_same(self, styled):
         """Whether the styled motion is bit-identical to the input."""

@@ -1,5 +1,5 @@
-"""The user's settings: a slider per style and per part of the shape, and the results of the last
-analysis of the motion."""
+"""The user's settings: sliders per style for its strength and its side and per part of the shape,
+and the results of the last analysis of the motion."""
 
 import hashlib
 import os
@@ -150,6 +150,24 @@ def _make_style_class():
     return type('PanacheStyles', (bpy.types.PropertyGroup,), {'__annotations__': sliders})
 
 
+def other_side(phrase):
+    """What is seen of a mirrored style: 'left leg' for 'right leg'."""
+    swapped = {'left': 'right', 'right': 'left'}
+    return ' '.join(swapped.get(word, word) for word in phrase.split(' '))
+
+
+def _make_sides_class():
+    """A slider per style for its side."""
+    sliders = {}
+    for name in model().styles:
+        phrase = model().sides[name]
+        seen = ': %s, -1: %s' % (phrase, other_side(phrase)) if phrase else ' as captured, -1 mirrored'
+        sliders[property_of(name)] = FloatProperty(
+            name='Side (1%s)' % seen if phrase else 'Side', default=1, min=-1, max=1, step=10,
+            update=_changed, description='1' + seen)
+    return type('PanacheSides', (bpy.types.PropertyGroup,), {'__annotations__': sliders})
+
+
 def title_of(group):
     return group.capitalize() if group else 'Other Styles'
 
@@ -169,17 +187,22 @@ def _make_groups_class():
     return type('PanacheGroups', (bpy.types.PropertyGroup,), {'__annotations__': shown})
 
 
-def _make_settings_class(styles, groups):
+def _make_settings_class(styles, sides, groups):
     fields = {name: FloatProperty(name=label, description=text, default=default, min=0, max=2,
                                   update=_changed)
               for name, (label, text, default) in SHAPE.items()}
     fields.update(
+        gestures=FloatProperty(
+            name='Gestures', default=1, min=0, max=10, soft_max=2, update=_changed,
+            description='How often the styles make their gestures: 1 as often as the performers, 0 '
+                        'never. An action that loops has none'),
         timing_where=EnumProperty(
             name='Tempo', default='steps', update=_changed,
             description='Where the style\'s tempo is applied',
             items=[('steps', 'Steps', 'Where the feet step; talk and gestures keep their length'),
                    ('all', 'All', 'Everywhere'), ('off', 'Off', 'Every frame stays in its place')]),
-        styles=PointerProperty(type=styles), groups=PointerProperty(type=groups),
+        styles=PointerProperty(type=styles), sides=PointerProperty(type=sides),
+        groups=PointerProperty(type=groups),
         preview=BoolProperty(name='Live Preview', update=preview.toggled,
                              description='Show the style at the current frame while sliders move'),
         neutral=PointerProperty(name='Neutral', type=bpy.types.Action,
@@ -195,12 +218,12 @@ _classes = []
 
 
 def _register_sliders():
-    styles, groups = _make_style_class(), _make_groups_class()
-    settings = _make_settings_class(styles, groups)
-    for cls in (styles, groups, settings):
+    styles, sides, groups = _make_style_class(), _make_sides_class(), _make_groups_class()
+    settings = _make_settings_class(styles, sides, groups)
+    for cls in (styles, sides, groups, settings):
         bpy.utils.register_class(cls)
     bpy.types.Object.panache = PointerProperty(type=settings)
-    _classes[:] = [styles, groups, settings]
+    _classes[:] = [styles, sides, groups, settings]
 
 
 def _unregister_sliders():
@@ -225,6 +248,20 @@ def strengths(armature):
             if (value := getattr(styles, property_of(name), 0.0)) != 0}
 
 
+def sides(armature):
+    """{style: side} of the styles that are put on and whose side is not as captured."""
+    return {name: value for name in strengths(armature)
+            if (value := getattr(armature.panache.sides, property_of(name), 1.0)) != 1}
+
+
+def has_side_shown(found, style):
+    """Whether the panel draws the slider of a style's side: while the style is put on, if the model
+    names its side or the slider was moved."""
+    key = property_of(style)
+    return getattr(found.styles, key, 0.0) != 0 and (
+        model().sides[style] != '' or getattr(found.sides, key, 1.0) != 1)
+
+
 def sliders_shown(found, styles, is_open):
     """The styles of a group that the panel draws: all, or only those that are not at 0."""
     return [name for name in styles
@@ -233,6 +270,13 @@ def sliders_shown(found, styles, is_open):
 
 def shape(armature):
     return {name: getattr(armature.panache, name) for name in SHAPE}
+
+
+def options(armature):
+    """The options of a style besides its strengths, for stylize()."""
+    found = armature.panache
+    return {'sides': sides(armature), 'shape': shape(armature), 'timing': found.timing_where,
+            'gesture_rate': found.gestures}
 
 
 def register():

@@ -11,11 +11,11 @@ struct Shared {
 };
 std::unique_ptr<Shared> shared;
 
-constexpr std::string_view kStyles = "styles/";
+constexpr std::string_view kStyles = "styles/", kSides = "sides/";
 
-// The style whose strength a property holds; empty for other properties.
-std::string style_of(const std::string& property) {
-  return property.starts_with(kStyles) ? property.substr(kStyles.size()) : "";
+// The style whose strength (kStyles) or side (kSides) a property holds; empty for other properties.
+std::string style_of(const std::string& property, std::string_view kind) {
+  return property.starts_with(kind) ? property.substr(kind.size()) : "";
 }
 
 }  // namespace
@@ -23,31 +23,50 @@ std::string style_of(const std::string& property) {
 // ---- Properties ---------------------------------------------------------------------------------
 
 bool Character::set(const std::string& property, const ValueData* value) {
-  if (const std::string style = style_of(property); !style.empty()) {
+  if (const std::string style = style_of(property, kStyles); !style.empty()) {
     strengths_[style] = to_real(value);
-    if (character_) apply(style);
-  } else if (property == "model_path") {
+    if (character_) apply_strength(style);
+    return true;
+  }
+  if (const std::string style = style_of(property, kSides); !style.empty()) {
+    sides_[style] = to_real(value);
+    if (character_) apply_side(style);
+    return true;
+  }
+  if (property == "model_path") {
     model_path_ = to_utf8(value);
     read_model();
   } else if (property == "hold_feet") {
     hold_feet_ = to_flag(value);
   } else if (property == "style_root") {
     style_root_ = to_flag(value);
+  } else if (property == "gestures") {
+    gestures_ = to_real(value);
+  } else if (property == "gesture_seed") {
+    gesture_seed_ = to_integer(value);
   } else {
     return false;
   }
-  if (style_of(property).empty()) of_ = nullptr;  // Recreates the character.
+  of_ = nullptr;  // Recreates the character.
   return true;
 }
 
 std::optional<Value> Character::get(const std::string& property) const {
-  if (const std::string style = style_of(property); !style.empty()) {
-    const auto found = strengths_.find(style);
-    return Value(found == strengths_.end() ? 0.0 : found->second);
+  const auto number = [](const auto& numbers, const std::string& style, double initial) {
+    const auto found = numbers.find(style);
+    return Value(found == numbers.end() ? initial : found->second);
+  };
+  if (const std::string style = style_of(property, kStyles); !style.empty()) {
+    return number(strengths_, style, 0);
+  }
+  if (const std::string style = style_of(property, kSides); !style.empty()) {
+    return number(sides_, style, 1);
   }
   if (property == "model_path") return Value(model_path_.c_str());
   if (property == "hold_feet") return Value(hold_feet_);
   if (property == "style_root") return Value(style_root_);
+  if (property == "gestures") return Value(gestures_);
+  if (property == "gesture_seed") return Value(gesture_seed_);
   return std::nullopt;
 }
 
@@ -58,20 +77,25 @@ std::optional<Value> Character::initial(const std::string& property) const {
 const std::vector<Property>& Character::properties() {
   texts_.clear();
   properties_.clear();
-  const auto add = [&](const std::string& name, const char* hint) {
-    texts_.push_back({Name(name.c_str()), Text(hint)});
+  const auto add = [&](const std::string& name, Type type, const char* hint) {
+    texts_.push_back({Name(name.c_str()), Text(hint), type});
   };
-  add("model_path", "*.safetensors");
-  add("hold_feet", "");
-  add("style_root", "");
-  for (int32_t i = 0; model_ && i < panache_model_style_count(model_.get()); ++i) {
-    add(std::string(kStyles) + panache_model_style_name(model_.get(), i), "-1,2,0.01");
+  add("model_path", Type::text, "*.safetensors");
+  add("hold_feet", Type::flag, "");
+  add("style_root", Type::flag, "");
+  add("gestures", Type::real, "0,2,0.01");
+  add("gesture_seed", Type::integer, "");
+  for (const auto& [kind, range] : {std::pair{kStyles, "-1,2,0.01"}, {kSides, "-1,1,0.01"}}) {
+    for (int32_t i = 0; model_ && i < panache_model_style_count(model_.get()); ++i) {
+      add(std::string(kind) + panache_model_style_name(model_.get(), i), Type::real, range);
+    }
   }
-  for (size_t i = 0; i < texts_.size(); ++i) {
-    const Type type = i == 0 ? Type::text : i < 3 ? Type::flag : Type::real;
-    const uint32_t hint = i == 0 ? kHintFile : i < 3 ? kHintNone : kHintRange;
-    properties_.push_back({type, texts_[i].name.get(), shared->no_name.get(), hint,
-                           texts_[i].hint.get(), kStoredAndEdited});
+  for (PropertyText& text : texts_) {
+    const uint32_t hint = text.type == Type::text   ? kHintFile
+                          : text.type == Type::real ? kHintRange
+                                                    : kHintNone;
+    properties_.push_back({text.type, text.name.get(), shared->no_name.get(), hint, text.hint.get(),
+                           kStoredAndEdited});
   }
   return properties_;
 }
@@ -106,18 +130,31 @@ void Character::make_character(const Value& skeleton) {
   panache_character_options options = PANACHE_CHARACTER_OPTIONS;
   options.hold_feet = hold_feet_;
   options.style_root = style_root_;
+  options.gesture_rate = static_cast<float>(gestures_);
+  options.gesture_seed = static_cast<uint32_t>(gesture_seed_);
   panache_character* made = nullptr;
   if (panache_character_create(model_.get(), pose_->skeleton(), &options, &made) != PANACHE_OK) {
     return tell(panache_last_error());
   }
   character_.reset(made);
-  for (const auto& [style, strength] : strengths_) apply(style);
+  for (const auto& [style, strength] : strengths_) apply_strength(style);
+  for (const auto& [style, side] : sides_) apply_side(style);
 }
 
-void Character::apply(const std::string& style) const {
+int32_t Character::place_of(const std::string& style) const {
   const int32_t place = panache_model_find_style(model_.get(), style.c_str());
   if (place < 0) tell(panache_last_error());
-  panache_character_set_strength(character_.get(), place, static_cast<float>(strengths_.at(style)));
+  return place;
+}
+
+void Character::apply_strength(const std::string& style) const {
+  panache_character_set_strength(character_.get(), place_of(style),
+                                 static_cast<float>(strengths_.at(style)));
+}
+
+void Character::apply_side(const std::string& style) const {
+  panache_character_set_side(character_.get(), place_of(style),
+                             static_cast<float>(sides_.at(style)));
 }
 
 // The skeleton's setting says when its modifiers run: 0 in physics frames, else in drawn frames.

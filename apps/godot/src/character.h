@@ -21,7 +21,8 @@ class Character {
   static void register_class();
   static void unregister_class();
 
-  // Properties: model_path, hold_feet, style_root, and styles/NAME for each style of the model.
+  // Properties: model_path, hold_feet, style_root, gestures and gesture_seed, and for each style of
+  // the model styles/NAME, its strength, and sides/NAME, its side.
   bool set(const std::string& property, const ValueData* value);
   std::optional<Value> get(const std::string& property) const;
   std::optional<Value> initial(const std::string& property) const;
@@ -37,6 +38,7 @@ class Character {
   struct PropertyText {
     Name name;
     Text hint;
+    Type type;
   };
   struct Destroy {
     void operator()(panache_character* character) const { panache_character_destroy(character); }
@@ -44,14 +46,19 @@ class Character {
 
   void read_model();
   void make_character(const Value& skeleton);
-  void apply(const std::string& style) const;
+  // The place of a style in the model; prints an error if it has none.
+  int32_t place_of(const std::string& style) const;
+  void apply_strength(const std::string& style) const;
+  void apply_side(const std::string& style) const;
   double seconds_of(const Value& skeleton) const;
 
   Object self_;
   std::string model_path_;
   bool hold_feet_ = true, style_root_ = false;
+  double gestures_ = 1;  // See gesture_rate in panache_character_options.
+  int64_t gesture_seed_ = 0;
   // By style name, so they can be set before the model.
-  std::map<std::string, double> strengths_;
+  std::map<std::string, double> strengths_, sides_;
 
   std::shared_ptr<panache_model> model_;
   std::unique_ptr<SkeletonPose> pose_;

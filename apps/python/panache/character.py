@@ -4,7 +4,7 @@ import ctypes
 import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Optional, Sequence, Tuple
+from typing import Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -51,7 +51,8 @@ class Character:
                        input; if both are 0, the output keeps the input's tempo.
     max_speed:         m/s; faster hips count as a jump, which restarts the style. Characters on
                        vehicles need more; 0 or infinity disables this.
-    gesture_rate:      random gestures of the active styles per second; 0 to 10.
+    gesture_rate:      how often the active styles play their gestures, at random: 1 as often as
+                       the performers did, 0 not at all, up to 10 times as often.
     gesture_seed:      different seeds make characters gesture at different times.
     skip_cycles:       skips or repeats whole gait cycles to stay within max_lag and max_lead.
     """
@@ -59,7 +60,7 @@ class Character:
     def __init__(self, model: Model, skeleton: Skeleton, *, ease_seconds: float = 0.15,
                  smoothing_seconds: float = 0.04, hold_feet: bool = True, style_root: bool = True,
                  skip_cycles: bool = False, max_lag: float = 0, max_lead: float = 0,
-                 max_speed: float = 15, remover: Optional[Model] = None, gesture_rate: float = 0,
+                 max_speed: float = 15, remover: Optional[Model] = None, gesture_rate: float = 1,
                  gesture_seed: int = 0):
         self.model, self.skeleton, self.remover = model, skeleton, remover
         options = sized(c.structs.CharacterOptions, ease_seconds=ease_seconds,
@@ -134,6 +135,12 @@ class Character:
         lib.character_set_strength(self._pointer, self.model.find_style(style),
                                    number(strength, style))
 
+    def set_side(self, style: str, side: Union[float, str]) -> None:
+        """Sets the side of a style: 1 or 'captured', -1 or 'mirrored', a number between, or 'left'
+        or 'right' if `model.sides` says which was captured. The change is eased."""
+        lib.character_set_side(self._pointer, self.model.find_style(style),
+                               self.model.find_side(style, side))
+
     def set_removed(self, style: Optional[str]) -> None:
         """Sets the style that the remover removes from the input; None: no style."""
         if self.remover is None:
@@ -155,7 +162,7 @@ class Character:
         check(lib.character_set_shape(self._pointer, c.shape_of(amounts)))
 
     def reset(self) -> None:
-        """Resets the motion history; keeps strengths."""
+        """Resets the motion history; keeps strengths and sides."""
         lib.character_reset(self._pointer)
 
     def report(self) -> Report:

@@ -193,8 +193,8 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
             ease_seconds: float = 0.15, smoothing_seconds: float = 0.04,
             shape: Optional[Mapping[str, float]] = None, max_speed: float = 15,
             loop: str = 'auto', remove: Optional[str] = None,
-            remover: Optional[Model] = None, gesture_rate: float = 0,
-            gesture_seed: int = 0) -> StyledClip:
+            remover: Optional[Model] = None, gesture_rate: float = 1, gesture_seed: int = 0,
+            sides: Optional[Mapping[str, Union[float, str]]] = None) -> StyledClip:
     """A clip in a style, or a mix of styles.
 
     styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of
@@ -208,7 +208,8 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
             clip; 'on', an error if those of the clip are too far apart; 'off'.
     remove: the style of the clip, which is removed first; 'any' for an unknown one.
     remover: the model that removes it; None: the shipped one.
-    gesture_rate, gesture_seed: see Character. A clip with random gestures does not loop.
+    sides:  {name: side} of styles that are not put on as captured, see Character.set_side().
+    gesture_rate, gesture_seed: see Character. A result that loops has no gestures at random.
 
     If all strengths are 0, the result is bit-identical to the clip (models of recipe panache).
     """
@@ -231,6 +232,11 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
                     shape=ctypes.pointer(c.shape_of(shape or {})), max_speed=max_speed,
                     loop=_LOOPS.index(loop), gesture_rate=gesture_rate,
                     gesture_seed=gesture_seed)
+    if sides:
+        numbers = np.ones(len(model.styles), np.float32)
+        for name, side in mapping(sides, 'sides').items():
+            numbers[model.find_style(name)] = model.find_side(name, side)
+        options.sides = numbers.ctypes.data
     if remove is not None:
         remover = remover or Model(_REMOVER)
         options.removed = remover.find_style(remove)

@@ -1,5 +1,6 @@
 """Models."""
 
+import ctypes
 import json
 import os
 import pathlib
@@ -8,7 +9,8 @@ from typing import Dict, List, Optional, Union
 import numpy as np
 
 from ._files import write
-from ._library import HERE, Handle, PanacheError, last_error, lib, take_bytes, utf8
+from ._library import (HERE, Handle, PanacheError, check, last_error, lib, number, take_bytes,
+                       utf8)
 
 _MODELS = HERE / 'models'
 NEUTRAL_BANK = _MODELS / 'neutral.safetensors'  # For learn() from a single clip.
@@ -53,11 +55,15 @@ class Model:
             lib.model_style_group(self._handle.pointer, i).decode() for i in range(count)]
         """The group of each style, such as 'moods'; '' for learnt ones, and in models without
         groups."""
+        self.sides: List[str] = [
+            lib.model_style_side(self._handle.pointer, i).decode() for i in range(count)]
+        """The side that each style was captured on, as one sees it: 'right leg', 'to the left'; ''
+        if the model does not say."""
         self.gestures: Dict[str, List[str]] = {
             style: [lib.model_gesture_name(self._handle.pointer, i, k).decode()
                     for k in range(lib.model_gesture_count(self._handle.pointer, i))]
             for i, style in enumerate(self.styles)}
-        """The gestures of each style, 'head turns left, 1.2 s', for `Character.trigger()`; most
+        """The gestures of each style, 'glances left, 1.2 s', for `Character.trigger()`; most
         styles have none."""
 
     def __reduce__(self):
@@ -73,6 +79,19 @@ class Model:
         if place < 0:
             raise last_error()
         return place
+
+    def find_side(self, style: str, side: Union[float, str]) -> float:
+        """A side of a style as a number: 1 as captured to -1 mirrored. Words are 'captured',
+        'mirrored' and, if `sides` says which was captured, 'left' and 'right'."""
+        if not isinstance(side, str):
+            side = number(side, f'side of {style}')
+            if not -1 <= side <= 1:
+                raise PanacheError(f'side of {style}: expected -1 to 1, found {side:g}')
+            return side
+        found = ctypes.c_float()
+        check(lib.model_find_side(self._handle.pointer, self.find_style(style), utf8(side, 'side'),
+                                  ctypes.byref(found)))
+        return found.value
 
     def _header(self) -> dict:
         size = int.from_bytes(self.content[:8], 'little')

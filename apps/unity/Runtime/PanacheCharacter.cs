@@ -4,13 +4,16 @@ using UnityEngine;
 
 namespace Panache.Unity {
 
-/// The strength of one style.
+/// The strength and the side of one style.
 [Serializable]
 public sealed class StyleStrength {
   [Tooltip("A style of the model, such as old.")]
   public string style = "";
   [Range(-1, 2), Tooltip("0 not at all, 1 as captured, more exaggerates, less than 0 does the opposite.")]
   public float strength;
+  [Range(-1, 1), Tooltip("1 as captured, -1 mirrored: a limp changes legs. The model's Sides tell " +
+                         "which side was captured.")]
+  public float side = 1;
 }
 
 /// Scales the parts of what the styles do; 1 is the style as the model has it.
@@ -59,6 +62,12 @@ public sealed class PanacheCharacter : MonoBehaviour {
   [Tooltip("The body moves at the style's own pace and so leaves its GameObject. " +
            "Read when the component is enabled.")]
   public bool styleRoot;
+  [Range(0, 2), Tooltip("How often the styles make their gestures: 1 as often as the performers, " +
+                        "0 never. Read when the component is enabled.")]
+  public float gestures = 1;
+  [Tooltip("Characters with different seeds make gestures at different times. " +
+           "Read when the component is enabled.")]
+  public uint gestureSeed;
 
   // All characters that use the same file share its model.
   private static readonly Dictionary<TextAsset, Model> Models = new Dictionary<TextAsset, Model>();
@@ -66,20 +75,25 @@ public sealed class PanacheCharacter : MonoBehaviour {
   private HumanoidJoints joints;
   private Character character;
   private Model read;
-  private float[] wanted, set;  // Strength of each style of the model.
+  private float[] wanted, set;            // Strength of each style of the model,
+  private float[] wantedSides, setSides;  // and its side.
   private readonly Dictionary<string, int> places =
       new Dictionary<string, int>(StringComparer.OrdinalIgnoreCase);
   private readonly HashSet<string> unknown = new HashSet<string>();
   private Shape shaped;
 
   /// Sets the strength of a style; adds it to the list if it is not there.
-  public void SetStrength(string style, float strength) {
-    foreach (StyleStrength entry in styles) {
-      if (!string.Equals(entry.style, style, StringComparison.OrdinalIgnoreCase)) continue;
-      entry.strength = strength;
-      return;
-    }
-    styles.Add(new StyleStrength { style = style, strength = strength });
+  public void SetStrength(string style, float strength) { EntryOf(style).strength = strength; }
+
+  /// Sets the side of a style, 1 as captured to -1 mirrored; adds it to the list, with a strength of
+  /// 0, if it is not there.
+  public void SetSide(string style, float side) { EntryOf(style).side = side; }
+
+  private StyleStrength EntryOf(string style) {
+    StyleStrength entry = styles.Find(
+        other => string.Equals(other.style, style, StringComparison.OrdinalIgnoreCase));
+    if (entry == null) styles.Add(entry = new StyleStrength { style = style });
+    return entry;
   }
 
   /// Forgets the motion so far; call it after a teleport. Hips faster than 15 m/s also cause this.
@@ -109,11 +123,15 @@ public sealed class PanacheCharacter : MonoBehaviour {
       if (model == null) throw new PanacheException("'" + name + "': expected a model, found none");
       read = Read(model);
       character = new Character(read, joints.Skeleton, new CharacterOptions {
-        HoldFeet = holdFeet ? 1 : 0, StyleRoot = styleRoot ? 1 : 0
+        HoldFeet = holdFeet ? 1 : 0, StyleRoot = styleRoot ? 1 : 0, GestureRate = gestures,
+        GestureSeed = gestureSeed
       });
       shaped = new Shape();
       wanted = new float[read.Styles.Count];
       set = new float[read.Styles.Count];
+      wantedSides = new float[read.Styles.Count];
+      setSides = new float[read.Styles.Count];
+      for (int i = 0; i < setSides.Length; ++i) setSides[i] = 1;
       places.Clear();
       for (int i = 0; i < read.Styles.Count; ++i) places[read.Styles[i]] = i;
       unknown.Clear();
@@ -136,15 +154,21 @@ public sealed class PanacheCharacter : MonoBehaviour {
   private void SetStyles() {
     if (shape.CopyTo(shaped)) character.SetShape(shaped);
     Array.Clear(wanted, 0, wanted.Length);
+    for (int i = 0; i < wantedSides.Length; ++i) wantedSides[i] = 1;
     foreach (StyleStrength entry in styles) {
       if (string.IsNullOrEmpty(entry.style)) continue;
       if (places.TryGetValue(entry.style, out int place)) {
         wanted[place] += entry.strength;
+        wantedSides[place] = entry.side;
       } else if (unknown.Add(entry.style)) {
         TellUnknown(entry.style);
       }
     }
     for (int i = 0; i < wanted.Length; ++i) {
+      if (wantedSides[i] != setSides[i]) {
+        setSides[i] = wantedSides[i];
+        character.SetSide(read.Styles[i], setSides[i]);
+      }
       if (wanted[i] == set[i]) continue;
       set[i] = wanted[i];
       character.SetStrength(read.Styles[i], set[i]);

@@ -1,7 +1,7 @@
 // Styles the caller's own poses: panache.h for JavaScript. See index.d.ts.
 import {
   PanacheError, checkFinite, checkInteger, checkJoints, checkKeys, checkPose, checkTriggered,
-  handleFor, inUse, timingNumber, unexpected,
+  handleFor, inUse, sideNumber, timingNumber, unexpected,
 } from './checks.js';
 import { removedIndex, removerHandle, writeClip } from './remover.js';
 import {
@@ -15,7 +15,7 @@ const kNeutralShape = {
   footLock: 1,
 };
 const kStylizing = { easeSeconds: 0.15, smoothingSeconds: 0.04, holdFeet: true, styleRoot: true,
-  maxSpeed: 15, gestureRate: 0, gestureSeed: 0 };
+  maxSpeed: 15, gestureRate: 1, gestureSeed: 0 };
 
 // Merges a caller's options into the defaults, which list all known options.
 function optionsOf(defaults, given) {
@@ -109,6 +109,11 @@ export class Character {
     this.#wasm.panache_character_set_strength(
       character, index, checkFinite(strength, `strength of '${style}'`));
   }
+  setSide(style, side) {
+    const character = this.#handle();
+    const index = this.#panache._styleIndex(style, this.#styles);
+    this.#wasm.panache_character_set_side(character, index, sideNumber(side, this.#styles[index]));
+  }
   trigger(style, gesture = 0) {
     const character = this.#handle();
     const index = this.#panache._styleIndex(style, this.#styles);
@@ -167,6 +172,18 @@ function writeTrack(arena, panache, name, strength) {
   };
 }
 
+// Writes the sides of all styles; null if none is given.
+function writeSides(arena, panache, sides) {
+  const given = Object.entries(sides);
+  if (!given.length) return 0;
+  const all = new Float32Array(panache.styles.length).fill(1);
+  for (const [name, side] of given) {
+    const index = panache._styleIndex(name);
+    all[index] = sideNumber(side, panache.styles[index]);
+  }
+  return arena.copy(all);
+}
+
 // The style that stylizeClip() removes first.
 function removalOf(panache, remover, remove) {
   if (!remover && remove === null) return {};
@@ -179,8 +196,8 @@ function removalOf(panache, remover, remove) {
 
 export function stylizeClip(panache, skeleton, clip, strengths, options) {
   const wasm = panache._wasm;
-  const { shape, styleTiming, loop, remover, remove, ...told } = optionsOf({ ...kStylizing,
-    styleTiming: 'steps', shape: {}, loop: 'auto', remover: null, remove: null }, options);
+  const { shape, styleTiming, loop, remover, remove, sides, ...told } = optionsOf({ ...kStylizing,
+    styleTiming: 'steps', shape: {}, loop: 'auto', remover: null, remove: null, sides: {} }, options);
   if (!kLoops.includes(loop)) throw unexpected('loop', "'auto', 'on' or 'off'", loop);
   const joints = skeleton.jointCount;
   const styled = panache._arena((arena) => {
@@ -190,7 +207,7 @@ export function stylizeClip(panache, skeleton, clip, strengths, options) {
     const how = arena.write(kStylizeOptions, {
       structSize: kStylizeOptions.size, ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
       shape: writeShape(arena, shape), loop: kLoops.indexOf(loop),
-      ...removalOf(panache, remover, remove),
+      ...removalOf(panache, remover, remove), sides: writeSides(arena, panache, sides),
     });
     const list = arena.array(kStrengthTrack, tracks);
     return arena.create((out) => wasm.panache_stylize_clip(

@@ -55,6 +55,20 @@ export function checkInteger(value, what) {
   if (Number.isInteger(value)) return value;
   throw unexpected(what, 'a whole number', value);
 }
+// Returns the side of a style as a number. `style`: as in Panache.styles.
+export function sideNumber(side, { name, side: captured }) {
+  if (captured === null) {
+    throw new PanacheError(`the styles of this model have no sides, so '${name}' has none`);
+  }
+  const words = new Map([['captured', 1], ['mirrored', -1]]);
+  for (const word of captured ? ['left', 'right'] : []) {
+    words.set(word, captured.split(' ').includes(word) ? 1 : -1);
+  }
+  const number = words.get(side) ?? side;
+  if (typeof number === 'number' && number >= -1 && number <= 1) return number;
+  throw unexpected(`side of '${name}'`,
+    `${[...words.keys()].map((word) => `'${word}'`).join(', ')} or a number from -1 to 1`, side);
+}
 // Checks the result of a trigger: whether the style has such a gesture.
 export function checkTriggered(found, { name, gestures }, gesture) {
   if (found) return;

@@ -30,7 +30,11 @@ export interface Style {
   learnt: boolean;
   /** A row of poses from the styled clip, SVG; "" for styles that were not learnt. */
   thumbnail: string;
-  /** What its gestures do and how long they take, "head turns left, 1.2 s"; often empty. */
+  /** The side that was captured, as one sees it: "right leg", "to the left". It has the word left or
+   * right in it once; with the other one it tells what is seen of the mirrored style. "" if the model
+   * does not say, null if its styles have no sides. */
+  side: string | null;
+  /** What its gestures do and how long they take, "glances left, 1.2 s"; often empty. */
   gestures: string[];
 }
 
@@ -76,6 +80,10 @@ export interface LearnReport {
       neutral: number[] }[];
   };
 }
+
+/** The side of a style, such as the leg of a limp: 1 or 'captured', -1 or 'mirrored', between them
+ * the mean of both; 'left' and 'right' if the style's `side` tells which was captured. */
+export type Side = number | 'captured' | 'mirrored' | 'left' | 'right';
 
 /** Scales the parts of what the styles do, 0 to 2; 1 is the style as the model has it. Posture is
  * the constant part of the change, dynamics the rest. Parts of the body are relative to what they
@@ -136,7 +144,8 @@ interface StylizingOptions {
   /** m/s. Faster hips count as a jump, which resets the style. Bodies on vehicles need more; 0 or
    * Infinity turns this off. Default: 15. */
   maxSpeed?: number;
-  /** Random gestures of the active styles per second, 0 to 10. Default: 0. */
+  /** How often the active styles play their gestures, at random: 1 as often as the performers did,
+   * 0 not at all, up to 10 times as often. A clip that is styled as a loop has none. Default: 1. */
   gestureRate?: number;
   /** An integer; characters with different seeds gesture at different times. Default: 0. */
   gestureSeed?: number;
@@ -157,6 +166,8 @@ export interface StylizeOptions extends StylizingOptions {
   /** Where the clip takes the tempo of the style. true is 'steps', the default; false is 'off'. */
   styleTiming?: Timing | boolean;
   shape?: Partial<Shape>;
+  /** Sides of styles that are not put on as captured, by style. */
+  sides?: Record<string, Side>;
   /** Whether the last pose of the result equals its first, except for travel: if it does in the
    * clip ('auto'), always, or an error if the two are too far apart ('on'), or never ('off'). */
   loop?: 'auto' | 'on' | 'off';
@@ -243,6 +254,8 @@ export class Character {
   /** 0 is neutral, 1 the style as captured, above 1 exaggerates it (-4 to 4). Eased in. Throws if
    * the model has no such style, or the strength is not finite. */
   setStrength(style: string, strength: number): void;
+  /** Initially 'captured'. Eased in. Throws if the model has no such style or the style no such side. */
+  setSide(style: string, side: Side): void;
   /** Plays a gesture of a style (its index in `gestures`; 0) at the style's strength. Waits up to
    * 3 s until no other gesture plays and a foot is on the floor; otherwise drops it. Throws if the
    * style has no such gesture. */
@@ -270,7 +283,8 @@ export class Panache {
     walker?: ArrayBuffer | Uint8Array;
   }): Promise<Panache>;
   readonly styles: readonly Style[];
-  /** Replaces the model. Players switch to it, with all strengths at 0; characters keep theirs.
+  /** Replaces the model. Players switch to it, all strengths 0 and sides as captured; characters keep
+   * theirs.
    * Error messages begin with `name`. */
   setModel(bytes: ArrayBuffer | Uint8Array, name?: string): void;
   readonly modelBytes: ArrayBuffer | Uint8Array;
@@ -363,7 +377,10 @@ export interface Body {
 declare class Player {
   /** Like the methods of Character. */
   setStrength(style: string, strength: number): void;
+  setSide(style: string, side: Side): void;
   setShape(shape: Partial<Shape>): void;
+  /** See StylizingOptions.gestureRate; 1 at first. */
+  setGestureRate(rate: number): void;
   trigger(style: string, gesture?: number): void;
   /** Sets the model for setRemoved(); the motion continues. */
   useRemover(remover: Remover): void;

@@ -4,7 +4,7 @@
 import { Character, Skeleton, stylizeClip, writeShape } from './character.js';
 import {
   PanacheError, checkBytes, checkFinite, checkInteger, checkKeys, checkTriggered, handleFor, inUse,
-  lastError, timingNumber,
+  lastError, sideNumber, timingNumber, unexpected,
 } from './checks.js';
 import { PoseFilter } from './filter.js';
 import { Arena } from './memory.js';
@@ -267,9 +267,20 @@ class Player {
     const at = this._wasm.panache_page_player_strengths(this._player);
     this._floats(at, index + 1)[index] = strength;
   }
+  setSide(style, side) {
+    const index = this.#panache._styleIndex(style);
+    this._wasm.panache_page_player_set_side(
+      this._player, index, sideNumber(side, this.#panache.styles[index]));
+  }
   setShape(shape) {
     this.#panache._arena((arena) => arena.check(
       this._wasm.panache_page_player_set_shape(this._player, writeShape(arena, shape))));
+  }
+  setGestureRate(rate) {
+    if (!(checkFinite(rate, 'gesture rate') >= 0 && rate <= 10)) {
+      throw unexpected('gesture rate', 'a number from 0 to 10', rate);
+    }
+    this._wasm.panache_page_player_set_gesture_rate(this._player, rate);
   }
   trigger(style, gesture = 0) {
     const index = this.#panache._styleIndex(style);

@@ -1,7 +1,7 @@
 // Styles characters of three.js: panache/three.
 import type { AnimationMixer, Object3D } from 'three';
 import type {
-  Character, CharacterOptions, Panache, Pose, SkeletonOptions,
+  Character, CharacterOptions, Panache, Pose, Side, SkeletonOptions,
 } from './index.js';
 
 export interface StyledBonesOptions extends CharacterOptions,
@@ -37,6 +37,8 @@ export class StyledMixer {
   readonly character: Character;
   /** 0 is neutral, 1 the style as captured, -4 to 4. Eased in. */
   setStrength(style: string, strength: number): void;
+  /** See Character.setSide(). */
+  setSide(style: string, side: Side): void;
   /** Updates the mixer by `seconds`, then styles its pose. */
   update(seconds: number): void;
   /** Restores the mixer's pose, for example before mixer.stopAllAction(). */

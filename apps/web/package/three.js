@@ -129,6 +129,7 @@ export class StyledMixer {
 
   get character() { return this.#bones.character; }
   setStrength(style, strength) { this.character.setStrength(style, strength); }
+  setSide(style, side) { this.character.setSide(style, side); }
 
   // The mixer only writes what its actions change, so it needs its own pose back first.
   update(seconds) {

@@ -1,16 +1,18 @@
-// The active styles below the panel: a slider for each.
+// The active styles below the panel: a slider for each, and a switch for those with a side.
 
 import type { Style } from '../package/index.js';
 import { element } from './dom';
 import { capitalized } from './groups';
 import type { Page } from './page';
 import { kLeast, kMost } from './settings';
+import { SideSwitch } from './side';
 import { Slider } from './slider';
 
 export class ActiveStyles {
   readonly element = element('section', { id: 'active-styles', 'aria-label': 'Active styles' });
   #none = element('p', { class: 'hint' }, 'Neutral: click a style to see it.');
   #sliders = new Map<string, Slider>();
+  #sides = new Map<string, SideSwitch>();
 
   constructor(private page: Page) {
     this.element.append(this.#none);
@@ -30,10 +32,12 @@ export class ActiveStyles {
   set() {
     for (const { row } of this.#sliders.values()) row.remove();
     this.#sliders.clear();
+    this.#sides.clear();
     this.#show();
   }
 
-  #make({ name, description }: Style): Slider {
+  #make(style: Style): Slider {
+    const { name, description } = style;
     const slider = new Slider({
       id: `style-${encodeURIComponent(name)}`, title: capitalized(name),
       hint: description || undefined, least: kLeast, most: kMost, rest: 0,
@@ -41,16 +45,22 @@ export class ActiveStyles {
       onReset: () => this.page.store.dropStyle(name),
     });
     slider.row.append(element('p', { class: 'words' }, description));
+    if (style.side) {
+      const side = new SideSwitch(style, (chosen) => this.page.store.setSide(name, chosen));
+      this.#sides.set(name, side);
+      slider.row.append(side.element);
+    }
     return slider;
   }
 
   #show() {
-    const { styles, keys } = this.page.store.settings;
+    const { styles, keys, sides } = this.page.store.settings;
     for (const [name, { row }] of this.#sliders) {
       // A slider in use stays, also at 0.
       if (this.page.isActive(name) || row.contains(document.activeElement)) continue;
       row.remove();
       this.#sliders.delete(name);
+      this.#sides.delete(name);
     }
     for (const style of this.page.panache.styles) {
       const { name } = style;
@@ -63,6 +73,7 @@ export class ActiveStyles {
       slider.row.classList.toggle('keyed', name in keys);
       if (!(name in keys)) slider.show(styles[name] ?? 0);
     }
+    for (const [name, side] of this.#sides) side.show(sides[name] ?? 1);
     this.#none.hidden = this.#sliders.size > 0;
   }
 }

@@ -170,7 +170,7 @@ export class Learn {
     panache.addStyle(bytes, { replace: this.#isOwn(name) });
     const seconds = (performance.now() - begin) / 1000;
     this.page.stylesChanged(name);
-    this.page.store.set({ styles: { [name]: 1 }, keys: {} });
+    this.page.store.set({ styles: { [name]: 1 }, keys: {}, sides: {} });
     this.#showReport(name, report, seconds);
     this.#showButton();
   }

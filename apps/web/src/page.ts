@@ -119,8 +119,8 @@ export class Page {
   #begin(bytes: ArrayBuffer) {
     this.panache.setModel(bytes);
     this.stylesChanged();
-    const { styles, keys } = this.#readAddress();
-    this.store.begin({ styles, keys });
+    const { styles, keys, sides } = this.#readAddress();
+    this.store.begin({ styles, keys, sides });
     rememberInAddress(this.store, () => this.#readAddress());
     this.#panel.showStyles();
     this.ready = true;
@@ -193,8 +193,8 @@ export class Page {
   playStyle(name: string, keep = false) {
     const { styles, keys } = this.store.settings;
     const alone = styles[name] === 1 && Object.keys({ ...styles, ...keys }).length === 1;
-    if (!alone) this.store.set({ styles: { [name]: 1 }, keys: {} });
-    else if (!keep) this.store.set({ styles: {} });
+    if (!alone) this.store.set({ styles: { [name]: 1 }, keys: {}, sides: {} });
+    else if (!keep) this.store.set({ styles: {}, sides: {} });
   }
   /** Adds a style to the active ones, as captured. */
   addStyle(name: string) {
@@ -244,7 +244,7 @@ export class Page {
     else this.panache.setModel(bytes, file.name);
     this.stylesChanged();
     const added = this.panache.styles.find(({ name }) => !known.includes(name));
-    if (isStyle && added) this.store.set({ styles: { [added.name]: 1 }, keys: {} });
+    if (isStyle && added) this.store.set({ styles: { [added.name]: 1 }, keys: {}, sides: {} });
   }
 
   #listenToKeys() {
@@ -255,7 +255,7 @@ export class Page {
         if (isClip) this.transport.setPlaying(!this.transport.state.playing);
         else this.#setPace(this.steering.pace === 'idle' ? 'walk' : 'idle');
       },
-      Digit0: () => this.store.set({ styles: {}, keys: {} }),
+      Digit0: () => this.store.set({ styles: {}, keys: {}, sides: {} }),
       Digit1: () => this.look('front'),
       Digit2: () => this.look('side'),
       Digit3: () => this.look('top'),

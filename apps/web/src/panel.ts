@@ -35,6 +35,7 @@ const kAmountHints = {
   posture: 'Slow part of the change: how the body is held',
   dynamics: 'Fast part of the change: swing, bounce, step length',
   timing: 'Change of tempo',
+  gestures: 'How often the styles make their gestures: 1 as often as the performers, 0 never',
 };
 const kSwitchTitles: Record<Switch, [string, string]> = {
   legs: ['Legs', 'Apply the style to legs and root motion'],
@@ -64,7 +65,7 @@ function toggle(text: string, hint: string, pressed: (s: Settings) => boolean, s
 function presets(store: Store) {
   const buttons = kPresets.map((preset) => {
     const chip = button(preset.title,
-      () => store.set({ styles: { ...preset.styles }, keys: {} }));
+      () => store.set({ styles: { ...preset.styles }, keys: {}, sides: {} }));
     store.listen(({ styles }) => {
       const same = JSON.stringify(Object.entries(styles).sort()) ===
         JSON.stringify(Object.entries(preset.styles).sort());

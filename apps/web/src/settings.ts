@@ -7,7 +7,7 @@ export const kLeast = -0.5;
 export const kMost = 2;
 
 export const kRegions = ['legs', 'torso', 'leftArm', 'rightArm'] as const;
-export const kAmounts = ['strength', 'posture', 'dynamics', 'timing'] as const;
+export const kAmounts = ['strength', 'posture', 'dynamics', 'timing', 'gestures'] as const;
 export const kTempos = ['steps', 'all', 'off'] as const satisfies readonly Timing[];
 export const kViews = ['styled', 'side', 'over'] as const;
 const kSwitches = [...kRegions, 'feet', 'trail', 'onion'] as const;
@@ -19,6 +19,8 @@ export interface Settings extends Record<(typeof kAmounts)[number], number>, Rec
   styles: Record<string, number>;
   /** For clips: keyframes by style, which replace its strength. */
   keys: Record<string, readonly Key[]>;
+  /** Side of each style that is not as captured: -1 mirrored, to 1. */
+  sides: Record<string, number>;
   /** The style to remove from the input: one of the remover's, or empty. */
   removed: string;
   /** Where the motion takes the tempo of its styles. */
@@ -30,8 +32,9 @@ export interface Settings extends Record<(typeof kAmounts)[number], number>, Rec
 export const kDefaults: Readonly<Settings> = {
   styles: {},
   keys: {},
+  sides: {},
   removed: '',
-  strength: 1, posture: 1, dynamics: 1, timing: 1, tempo: 'steps',
+  strength: 1, posture: 1, dynamics: 1, timing: 1, gestures: 1, tempo: 'steps',
   legs: true, torso: true, leftArm: true, rightArm: true, feet: true,
   view: 'side',
   trail: true,
@@ -49,6 +52,7 @@ export function bounded(value: number, least: number, most: number, otherwise: n
 // Styles have a prefix in the address, as a learnt style may have the name of a setting.
 const kStyle = 'style.';
 const kKeys = 'keys.';
+const kSide = 'side.';
 
 /** "style.old=0.5&view=over": all differences from the defaults; "neutral" if there are none, and
  * empty for kOpening. */
@@ -59,6 +63,9 @@ export function toAddress(settings: Settings): string {
     if (value !== 0) out.set(kStyle + name, String(value));
   }
   for (const [name, keys] of Object.entries(settings.keys)) out.set(kKeys + name, toText(keys));
+  for (const [name, side] of Object.entries(settings.sides)) {
+    out.set(kSide + name, side === -1 ? 'mirrored' : String(side));
+  }
   if (settings.removed) out.set('removed', settings.removed);
   for (const key of kAmounts) if (settings[key] !== 1) out.set(key, String(settings[key]));
   for (const key of kSwitches) {
@@ -81,7 +88,7 @@ export function fromAddress(text: string, styles: readonly string[],
     removable: readonly string[]): Settings {
   const given = new URLSearchParams(text.replace(/^#/, ''));
   if (given.size === 0) return { ...kOpening, styles: { ...kOpening.styles } };
-  const settings: Settings = { ...kDefaults, styles: {}, keys: {} };
+  const settings: Settings = { ...kDefaults, styles: {}, keys: {}, sides: {} };
   const choices: Record<string, readonly string[]> =
     { view: kViews, tempo: kTempos, removed: removable };
   for (const [key, value] of given) {
@@ -94,10 +101,16 @@ export function fromAddress(text: string, styles: readonly string[],
       const keys = fromText(value);
       if (keys.length) settings.keys[name] = keys;
     };
+    const setSide = (name: string) => {
+      const side = value === 'mirrored' ? -1 : bounded(number, -1, 1, 1);
+      if (side !== 1) settings.sides[name] = side;
+    };
     if (key.startsWith(kStyle) && styles.includes(key.slice(kStyle.length))) {
       setStyle(key.slice(kStyle.length));
     } else if (key.startsWith(kKeys) && styles.includes(key.slice(kKeys.length))) {
       setKeys(key.slice(kKeys.length));
+    } else if (key.startsWith(kSide) && styles.includes(key.slice(kSide.length))) {
+      setSide(key.slice(kSide.length));
     } else if (isOne(kAmounts, key)) {
       settings[key] = bounded(number, 0, 2, 1);
     } else if (isOne(kSwitches, key)) {
@@ -161,18 +174,25 @@ export class Store {
     if (list.length === 0) delete keys[name];
     this.set({ keys });
   }
-  /** Removes a style's strength and keys. */
+  setSide(name: string, side: number) {
+    const sides = { ...this.settings.sides, [name]: side };
+    if (side === 1) delete sides[name];
+    this.set({ sides });
+  }
+  /** Removes a style's strength, keys and side. */
   dropStyle(name: string) {
     const { [name]: _style, ...styles } = this.settings.styles;
     const { [name]: _keys, ...keys } = this.settings.keys;
-    this.set({ styles, keys });
+    const { [name]: _side, ...sides } = this.settings.sides;
+    this.set({ styles, keys, sides });
   }
   /** Drops all styles that no longer exist, in the settings and in the undo history. */
   keepStyles(names: readonly string[]) {
     const kept = <T>(all: Record<string, T>) =>
       Object.fromEntries(Object.entries(all).filter(([name]) => names.includes(name)));
     const without = (settings: Settings) =>
-      ({ ...settings, styles: kept(settings.styles), keys: kept(settings.keys) });
+      ({ ...settings, styles: kept(settings.styles), keys: kept(settings.keys),
+        sides: kept(settings.sides) });
     this.#done = this.#done.map(without);
     this.#undone = this.#undone.map(without);
     this.#tell(without(this.settings));

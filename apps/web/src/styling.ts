@@ -5,7 +5,7 @@ import { strengthAt, type Key } from './keys';
 import { shapeOf, type Settings } from './settings';
 import type { Source } from './source';
 
-/** Sets a player's strengths, keyframes, shape and timing, and the style to remove once the remover
+/** Sets a player's strengths, keyframes, sides, shape, timing and gestures, and the style to remove once the remover
  * is loaded. */
 export function applySettings(panache: Panache, player: Walk | Playback, settings: Settings,
     remover: Remover | null) {
@@ -13,7 +13,8 @@ export function applySettings(panache: Panache, player: Walk | Playback, setting
     player.useRemover(remover);
     player.setRemoved(settings.removed || null);
   }
-  for (const { name } of panache.styles) {
+  for (const { name, side } of panache.styles) {
+    if (side !== null) player.setSide(name, settings.sides[name] ?? 1);
     player.setStrength(name, (settings.styles[name] ?? 0) * settings.strength);
     if (!(player instanceof Playback)) continue;
     player.setTrack(name, (settings.keys[name] ?? [])
@@ -21,6 +22,7 @@ export function applySettings(panache: Panache, player: Walk | Playback, setting
   }
   player.setShape(shapeOf(settings));
   player.setTiming(settings.tempo);
+  player.setGestureRate(settings.gestures);
 }
 
 /** Plays a gesture of a source's active styles, if they have any. */

@@ -4,7 +4,7 @@ import type { Style } from '../package/index.js';
 import { groupStyles } from '../src/groups';
 
 const style = (name: string, group: string, learnt = false): Style =>
-  ({ name, group, learnt, description: '', words: [], thumbnail: '', gestures: [] });
+  ({ name, group, learnt, description: '', words: [], side: '', thumbnail: '', gestures: [] });
 const shown = (styles: Style[]) =>
   groupStyles(styles).map(({ title, styles: own }) => [title, ...own.map(({ name }) => name)]);
 

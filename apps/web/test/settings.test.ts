@@ -3,6 +3,7 @@ import { afterEach, describe, expect, it, vi } from 'vitest';
 import {
   bounded, fromAddress as read, kDefaults, kOpening, shapeOf, Store, toAddress,
 } from '../src/settings';
+import { otherSide } from '../src/side';
 
 const kStyles = ['old', 'proud'];
 const fromAddress = (text: string, styles: readonly string[]) => read(text, styles, ['any', 'drunk']);
@@ -18,7 +19,8 @@ describe('the address', () => {
     const set = {
       ...kDefaults, styles: { old: 1.25, proud: -0.5 }, strength: 0.5, posture: 0, timing: 2,
       tempo: 'all' as const, removed: 'drunk',
-      legs: false, feet: false, trail: false, view: 'over' as const,
+      legs: false, feet: false, trail: false, view: 'over' as const, gestures: 0,
+      sides: { old: -1, proud: 0.5 },
     };
     expect(fromAddress(`#${toAddress(set)}`, kStyles)).toEqual(set);
   });
@@ -49,6 +51,33 @@ describe('a style that is called as a setting is', () => {
     expect(link).toEqual(
       { ...kDefaults, styles: { old: 1 }, view: 'over', legs: false, strength: 0.5 });
     expect(fromAddress('#proud=0.5', ['proud'])).toEqual({ ...kDefaults, styles: { proud: 0.5 } });
+  });
+});
+
+describe('the side of a style', () => {
+  it('is in the address as a word, and gone as captured', () => {
+    const store = new Store({ ...kDefaults });
+    store.setSide('old', -1);
+    expect(toAddress(store.settings)).toBe('side.old=mirrored');
+    store.setSide('old', 1);
+    expect(store.settings).toEqual(kDefaults);
+    expect(fromAddress('#side.old=x&side.proud=7&side.odd=-1', kStyles)).toEqual(kDefaults);
+  });
+  it('goes with its style and comes back with undo', () => {
+    const store = new Store({ ...kDefaults });
+    vi.spyOn(performance, 'now').mockReturnValueOnce(0).mockReturnValueOnce(1e4);
+    store.setSide('old', -1);
+    store.dropStyle('old');
+    expect(store.settings.sides).toEqual({});
+    store.undo();
+    expect(store.settings.sides).toEqual({ old: -1 });
+    store.keepStyles(['proud']);
+    expect(store.settings.sides).toEqual({});
+    vi.restoreAllMocks();
+  });
+  it('is told by the phrase of the model with the other word', () => {
+    expect(otherSide('right leg')).toBe('left leg');
+    expect(otherSide('to the left')).toBe('to the right');
   });
 });
 

@@ -21,6 +21,7 @@
 #include "retarget/retarget.h"
 #include "rig/body_motions.h"
 #include "style/removal.h"
+#include "style/side.h"
 
 using namespace panache;
 using namespace panache::web;
@@ -59,6 +60,7 @@ static nlohmann::json split_words(std::string_view words) {
 // See index.d.ts: Style[].
 PANACHE_EXPORT panache_bytes* panache_page_styles(const panache_model* model) {
   nlohmann::json all = nlohmann::json::array();
+  const bool has_sides = check_has_sides(*model->model).ok();
   for (const StyleInfo& style : model->model->styles()) {
     nlohmann::json gestures = nlohmann::json::array();
     for (const Gesture& gesture : model->model->gestures(static_cast<int>(all.size()))) {
@@ -67,6 +69,7 @@ PANACHE_EXPORT panache_bytes* panache_page_styles(const panache_model* model) {
     all.push_back({{"name", style.name},
                    {"description", style.description},
                    {"group", style.group},
+                   {"side", has_sides ? nlohmann::json(style.side) : nlohmann::json()},
                    {"words", split_words(style.words)},
                    {"learnt", style.learnt},
                    {"thumbnail", style.thumbnail},
@@ -204,6 +207,9 @@ PANACHE_EXPORT void panache_page_player_set_track(Player* player, int32_t style,
   }
   player->set_track(style, std::move(points));
 }
+PANACHE_EXPORT void panache_page_player_set_side(Player* player, int32_t style, float side) {
+  player->set_side(style, side);
+}
 PANACHE_EXPORT panache_status panache_page_player_use_model(Player* player,
                                                             const panache_model* model) {
   return status_of(player->use_model(model->model), PANACHE_BAD_SKELETON);
@@ -225,6 +231,9 @@ PANACHE_EXPORT panache_status panache_page_player_set_shape(Player* player,
 // `timing`: see style_timing in panache.h.
 PANACHE_EXPORT void panache_page_player_set_timing(Player* player, int32_t timing) {
   player->set_timing(static_cast<Timing>(timing));
+}
+PANACHE_EXPORT void panache_page_player_set_gesture_rate(Player* player, float rate) {
+  player->set_gesture_rate(rate);
 }
 PANACHE_EXPORT int32_t panache_page_player_trigger(Player* player, int32_t style, int32_t gesture) {
   return player->trigger(style, gesture) ? 1 : 0;

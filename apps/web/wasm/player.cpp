@@ -11,6 +11,7 @@
 #include "rig/rig_body.h"
 #include "rig/up_axis.h"
 #include "style/removal.h"
+#include "style/side.h"
 
 namespace panache::web {
 namespace {
@@ -90,9 +91,23 @@ void Player::set_track(int style, std::vector<StrengthTrack::Point> points) {
   tracks_[static_cast<size_t>(style)] = {style, std::move(points)};
 }
 
+void Player::set_side(int style, float side) {
+  if (!model_ || !check_has_sides(*model_)) return;
+  sides_.resize(strengths_.size(), 1.0f);
+  sides_[static_cast<size_t>(style)] = side;
+  stylizer_->set_side(style, side);
+}
+
+void Player::set_gesture_rate(float rate) {
+  gesture_rate_ = rate;
+  if (stylizer_) stylizer_->set_gesture_rate(rate);
+}
+
 StylizerOptions Player::options() const {
   StylizerOptions options;
   options.tempo_everywhere = timing_ == Timing::all;
+  options.sides = sides_;
+  options.gesture_rate = gesture_rate_;
   return options;
 }
 
@@ -128,9 +143,12 @@ float Player::gate() const {
 }
 
 Result<void> Player::use_model(std::shared_ptr<const Model> model) {
-  Result<Stylizer> stylizer = Stylizer::create(model, source_.rig(), options());
+  StylizerOptions how = options();
+  how.sides.clear();
+  Result<Stylizer> stylizer = Stylizer::create(model, source_.rig(), how);
   if (!stylizer) return stylizer.error();
   model_ = std::move(model);
+  sides_.clear();
   stylizer_ = *std::move(stylizer);
   strengths_.assign(model_->styles().size(), 0);
   strengths_now_ = strengths_;

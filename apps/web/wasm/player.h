@@ -55,6 +55,10 @@ class Player {
   // For clips: sets keyframes for the strength of a style. Times are seconds after the first frame,
   // ascending. Without points the constant strength applies again.
   void set_track(int style, std::vector<StrengthTrack::Point> points);
+  // See Stylizer::set_side(). use_model() sets all to 1.
+  void set_side(int style, float side);
+  // See StylizerOptions::gesture_rate.
+  void set_gesture_rate(float rate);
   Shape& shape() { return shape_; }
   // Used from the next step on; the motion continues. Initially Timing::steps.
   void set_timing(Timing timing);
@@ -73,7 +77,8 @@ class Player {
   // default. Eased. Ignored without a remover, and if the index is out of range.
   void set_removed(int style);
 
-  // Switches to another model; clears strengths and tracks. Fails if it does not suit the rig.
+  // Switches to another model; clears strengths, tracks and sides. Fails if it does not suit the
+  // rig.
   Result<void> use_model(std::shared_ptr<const Model> model);
 
   // See Stylizer::trigger().
@@ -98,7 +103,7 @@ class Player {
 
  private:
   explicit Player(Source source);
-  // For the current timing.
+  // For the current timing, sides and gestures.
   StylizerOptions options() const;
   // Writes the strengths at this instant to strengths_now_.
   void read_strengths();
@@ -115,8 +120,10 @@ class Player {
   std::optional<BodyMesh> body_, coarse_body_;
   std::vector<float> strengths_, strengths_now_;  // [styles]
   std::vector<StrengthTrack> tracks_;             // [styles], mostly empty.
+  std::vector<float> sides_;                      // [styles], or empty: all 1.
   Shape shape_;
   Timing timing_ = Timing::steps;
+  float gesture_rate_ = 1;
   double rate_ = 1, removal_rate_ = 1;  // Rates of the two passes.
 };
 

@@ -11,7 +11,9 @@
 namespace panache {
 
 // Plays one gesture at a time. It starts when a foot is down, never while the body is in the air.
-// Random gestures at r per second are 0.5 / r to 1.5 / r seconds apart.
+// At random the active styles play theirs as often as their takes do (Model::gesture_rate()), up to
+// strength 1 in proportion to it. If that is r per second, they are 0.5 / r to 1.5 / r seconds
+// apart.
 class GesturePlayer {
  public:
   explicit GesturePlayer(uint32_t seed) : random_(seed) {}
@@ -31,29 +33,30 @@ class GesturePlayer {
     float flight = 0;        // See FlightWatch::amount().
     float run = 0;           // 0 (walk) to 1 (run, where dips of the hips fling the knees).
   };
-  // `strengths`: [styles], eased; `rate`: random gestures per second, 0 for none.
-  void step(const Model& model, std::span<const float> strengths, float rate, const Ground& ground,
-            const StepTime& time) noexcept;
+  // `strengths` and `sides`: [styles], eased; `often`: times as many random gestures as in the
+  // takes, 0 for none.
+  void step(const Model& model, std::span<const float> strengths, std::span<const float> sides,
+            float often, const Ground& ground, const StepTime& time) noexcept;
 
   // Whether no gesture plays or waits.
   bool rests() const noexcept { return style_ < 0 && next_style_ < 0; }
 
-  // What it adds at the last step, scaled by the strength of its style; null for nothing.
+  // What it adds at the last step, by the strength and the side of its style; null for nothing.
   const GesturePose* now() const noexcept { return style_ >= 0 ? &pose_ : nullptr; }
 
   static constexpr float kPatience = 3;  // Seconds.
-  static constexpr float kMaxRate = 10;  // Per second.
+  static constexpr float kMaxOften = 10;
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.style_), visit(self.gesture_), visit(self.time_), visit(self.pose_);
     visit(self.next_style_), visit(self.next_gesture_), visit(self.waited_);
-    visit(self.random_), visit(self.due_);
+    visit(self.random_), visit(self.due_), visit(self.begun_);
   }
 
  private:
-  void draw(const Model& model, std::span<const float> strengths, float rate,
+  void draw(const Model& model, std::span<const float> strengths, float often,
             float seconds) noexcept;
   void start(const Model& model, std::span<const float> strengths, const Ground& ground,
              float seconds) noexcept;
@@ -64,7 +67,8 @@ class GesturePlayer {
   int32_t next_style_ = -1, next_gesture_ = 0;  // Waiting; -1 for none,
   float waited_ = 0;                            // since so many seconds.
   Random random_;
-  float due_ = -1;  // Mean intervals until the next random one; negative: not drawn yet.
+  float due_ = -1;      // Mean intervals until the next random one; negative: not drawn yet.
+  bool begun_ = false;  // Whether a random one has been drawn.
 };
 
 }  // namespace panache

@@ -23,9 +23,9 @@ float exaggerated(float strength, float even) {
 float posture_strength(float strength) noexcept { return exaggerated(strength, kPostureEven); }
 float movement_strength(float strength) noexcept { return exaggerated(strength, kMovementEven); }
 
-void EasedStrengths::step(std::span<const float> strengths, const Shape& shape,
-                          const StepTime& time) noexcept {
-  assert(strengths.size() == now_.size());
+void EasedStrengths::step(std::span<const float> strengths, std::span<const float> sides,
+                          const Shape& shape, const StepTime& time) noexcept {
+  assert(strengths.size() == now_.size() && sides.size() == now_.size());
   const float gain = time.gain(ease_seconds_);
   const auto ease = [&](float& value, float wanted, float max) {
     approach(value, bounded(wanted, max), gain, kNear);
@@ -41,6 +41,7 @@ void EasedStrengths::step(std::span<const float> strengths, const Shape& shape,
   const float all = bounded(shape.strength, Shape::kMax);
   float total = 0, posture = 0, movement = 0;
   for (size_t i = 0; i < now_.size(); ++i) {
+    approach(sides_[i], sides[i], now_[i] == 0 ? 1.0f : gain, kNear);
     if (strengths[i] == 0 && now_[i] == 0) continue;  // True for most styles.
     const float wanted = std::isfinite(strengths[i]) ? strengths[i] * all : 0.0f;
     approach(now_[i], std::clamp(wanted, -kMaxStrength, kMaxStrength), gain, kNear);

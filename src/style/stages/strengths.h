@@ -1,5 +1,5 @@
 #pragma once
-// Eases strengths and shape.
+// Eases strengths, sides and shape.
 
 #include <span>
 #include <vector>
@@ -21,12 +21,16 @@ class EasedStrengths {
   // Strengths are clamped to -kMaxStrength to kMaxStrength.
   static constexpr float kMaxStrength = 4;
 
-  EasedStrengths(size_t styles, float ease_seconds) : ease_seconds_(ease_seconds), now_(styles) {}
+  EasedStrengths(size_t styles, float ease_seconds)
+      : ease_seconds_(ease_seconds), now_(styles), sides_(styles, 1.0f) {}
 
-  // Eases towards `strengths` [styles] and `shape`; numbers that are not finite count as 0.
-  void step(std::span<const float> strengths, const Shape& shape, const StepTime& time) noexcept;
+  // Eases towards `strengths` [styles], `sides` [styles], -1 to 1, and `shape`. Strengths that are
+  // not finite count as 0. A style that is off takes its side at once.
+  void step(std::span<const float> strengths, std::span<const float> sides, const Shape& shape,
+            const StepTime& time) noexcept;
 
-  std::span<const float> now() const noexcept { return now_; }  // [styles]
+  std::span<const float> now() const noexcept { return now_; }      // [styles]
+  std::span<const float> sides() const noexcept { return sides_; }  // [styles]
   // Its dynamics also scale from posture_strength() to movement_strength().
   const Shape& shape() const noexcept { return in_force_; }
   // How active any style is: 0 without one, 1 from a quarter strength on.
@@ -35,12 +39,13 @@ class EasedStrengths {
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.now_), visit(self.shape_), visit(self.in_force_), visit(self.amount_);
+    visit(self.now_), visit(self.sides_), visit(self.shape_), visit(self.in_force_),
+        visit(self.amount_);
   }
 
  private:
   float ease_seconds_;
-  std::vector<float> now_;  // [styles]
+  std::vector<float> now_, sides_;  // [styles]
   Shape shape_, in_force_;
   float amount_ = 0;
 };

@@ -461,8 +461,8 @@ test('gestures stand in one list, in an animator\'s words, and play', async () =
   await other.locator('#gestures summary').click();
   const titles = await other.locator('#gestures button').allTextContents();
   assert.ok(titles.length >= 20);
-  for (const title of titles) assert.match(title, /^[A-Z][a-z ]+ \d\.\d s( \(\d\))?$/);
-  assert.ok(titles.some((title) => title.startsWith('Glance left')));
+  for (const title of titles) assert.match(title, /^[A-Z][a-z, ]+( \(\d\))?, \d\.\d s$/);
+  assert.ok(titles.some((title) => title.startsWith('Glances ')));
   const row = other.locator('#gestures p').first();
   const style = await row.getAttribute('data-style');
   await row.locator('button').first().click();
