@@ -13,6 +13,7 @@
 #include "eval/systems/recorded.h"
 #include "manifests.h"
 #include "messages.h"
+#include "model_path.h"
 #include "outputs.h"
 #include "usage_error.h"
 #include "lab_verbs.h"
@@ -121,6 +122,7 @@ EvaluateOptions read_options(const Options& options) {
     evaluation.models.push_back(
         {std::filesystem::path(path).stem().string(), need(Model::load(path)), status ? 0 : bytes});
   }
+  evaluation.walker_model = need(find_shipped(kWalkerModel));
   if (!options.remover.empty()) evaluation.remover = need(Model::load(options.remover));
   const Result<std::vector<SystemEntry>> published = find_published(options.systems);
   if (!published) throw Failure{located("--system", published.error()), kBadInput};

@@ -15,7 +15,8 @@
   verb(export) \
   verb(fit_walker) \
   verb(neutral_bank) \
-  verb(learning)
+  verb(learning) \
+  verb(arrival)
 // clang-format on
 
 namespace panache::cli {

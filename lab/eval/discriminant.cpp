@@ -13,13 +13,6 @@ constexpr int kStatistics = 3 * kBones + 3 * kBones + kHumanJoints + 2;
 constexpr float kStillSpeed = 0.05f;                   // m/s, added before the logarithm.
 constexpr float kHeightUnit = 0.2f, kBobUnit = 0.03f;  // Metres.
 
-std::vector<HumanPositions> mirrored_body(const Take& take) {
-  std::vector<HumanPositions> body;
-  body.reserve(take.body.size());
-  for (const HumanPositions& pose : take.body) body.push_back(mirrored(pose));
-  return body;
-}
-
 void write_statistics(const std::vector<HumanPositions>& body, int first, int window_frames,
                       float* out) {
   const int last = std::min(first + window_frames, static_cast<int>(body.size()));
@@ -56,20 +49,14 @@ void write_statistics(const std::vector<HumanPositions>& body, int first, int wi
 }
 
 // Statistics of the windows of a take, or of a shorter take as a whole. [windows][kStatistics]
-torch::Tensor statistics(const std::vector<HumanPositions>& body, int window_frames, int hop) {
-  const int windows = 1 + std::max(0, static_cast<int>(body.size()) - window_frames) / hop;
+torch::Tensor statistics(const Take& take, int window_frames, int hop) {
+  const int windows = 1 + std::max(0, take.frames() - window_frames) / hop;
   torch::Tensor rows = torch::empty({windows, kStatistics});
   for (int w = 0; w < windows; ++w) {
-    write_statistics(body, w * hop, window_frames,
+    write_statistics(take.body, w * hop, window_frames,
                      rows.data_ptr<float>() + size_t(w) * kStatistics);
   }
   return rows.to(torch::kFloat64);
-}
-
-// Statistics of all windows of a take and of its mirror image. [windows][kStatistics]
-torch::Tensor both_sides(const Take& take, int window_frames) {
-  return torch::cat({statistics(take.body, window_frames, kLearntHop),
-                     statistics(mirrored_body(take), window_frames, kLearntHop)});
 }
 
 }  // namespace
@@ -78,17 +65,17 @@ Discriminant::Discriminant(const std::vector<Take>& takes, const std::vector<std
                            const std::vector<std::string>& classes, int window_frames)
     : window_frames_(window_frames),
       discriminant_(rows_of_classes(takes, labels, classes, kStatistics, [&](const Take& take) {
-        return both_sides(take, window_frames);
+        return statistics(take, window_frames, kLearntHop);
       })) {}
 
 torch::Tensor Discriminant::scores(const Take& take, const torch::Tensor& shift) const {
   torch::NoGradGuard no_gradients;
-  const torch::Tensor rows = statistics(take.body, window_frames_, kHop);
+  const torch::Tensor rows = statistics(take, window_frames_, kHop);
   return discriminant_.scores(shift.defined() ? rows + shift : rows);
 }
 
 torch::Tensor Discriminant::mean_statistics(const Take& take) const {
-  return both_sides(take, window_frames_).mean(0);
+  return statistics(take, window_frames_, kLearntHop).mean(0);
 }
 
 }  // namespace panache

@@ -15,8 +15,8 @@ namespace panache {
 
 class Discriminant {
  public:
-  // Learns to predict labels[i] from takes[i] and their mirror images; skips takes whose label is
-  // not among `classes`. Windows have this many frames of a take.
+  // Learns to predict labels[i] from takes[i]; skips takes whose label is not among `classes`.
+  // Windows have this many frames of a take. A style and its mirror image are two.
   Discriminant(const std::vector<Take>& takes, const std::vector<std::string>& labels,
                const std::vector<std::string>& classes,
                int window_frames = static_cast<int>(kTakeRate));
@@ -24,7 +24,7 @@ class Discriminant {
   // Log-likelihoods of the classes up to a constant. `shift`, if defined, is added to the
   // statistics of every window. [windows][classes]
   torch::Tensor scores(const Take& take, const torch::Tensor& shift = {}) const;
-  // Mean over the windows of a take and of its mirror image. [statistics]
+  // Mean over the windows of a take. [statistics]
   torch::Tensor mean_statistics(const Take& take) const;
 
  private:

@@ -16,6 +16,7 @@
 #include "eval/systems/mean_posture.h"
 #include "eval/systems/model_system.h"
 #include "eval/systems/recorded.h"
+#include "eval/walker_walks.h"
 
 namespace panache {
 namespace {
@@ -39,6 +40,18 @@ Result<TestSet> prepare(const EvaluateOptions& options) {
   if (!inputs) return inputs.error();
   Result<std::vector<TestInput>> styled_inputs = load_inputs(styled);
   if (!styled_inputs) return styled_inputs.error();
+  std::vector<ManifestRow> walks;
+  for (const ManifestRow& row : options.unlabelled) {
+    if (row.test && row.content == kWalk) walks.push_back(row);
+  }
+  Result<std::vector<TestInput>> others = load_inputs(walks);
+  if (!others) return others.error();
+  std::vector<TestInput> walker;
+  if (!options.walker_model.empty()) {
+    Result<std::vector<TestInput>> made = walker_walks(options.walker_model);
+    if (!made) return made.error();
+    walker = *std::move(made);
+  }
   std::vector<Take> test;
   std::set<std::string> styles;
   for (const std::vector<TestInput>* part : {&*inputs, &*styled_inputs}) {
@@ -50,7 +63,8 @@ Result<TestSet> prepare(const EvaluateOptions& options) {
   const double units = 1 / styled_inputs->front().rig.scale();
   PerformerJudges performers(training->takes, test);
   return TestSet{*std::move(training),           *std::move(inputs),
-                 *std::move(styled_inputs),      AlignedTakes(std::move(test)),
+                 *std::move(styled_inputs),      *std::move(others),
+                 std::move(walker),              AlignedTakes(std::move(test)),
                  std::move(evaluator),           std::move(performers),
                  {styles.begin(), styles.end()}, units};
 }
@@ -124,6 +138,12 @@ Result<SystemReport> judge_in_every_way(const System& system, const TestSet& tes
   Result<SystemReport> report = evaluate_system(system, test_set);
   if (!report) return report;
   report->disturbances = measure_disturbances(test_set.aligned, system);
+  Result<std::vector<StyleArrival>> arrival =
+      WalkSet(test_set.training.takes, test_set.evaluator.test(), test_set.inputs, test_set.others,
+              test_set.walker)
+          .measure(system);
+  if (!arrival) return arrival.error();
+  report->arrival = *std::move(arrival);
   if (!options.ood.empty()) {
     Progress progress("foreign motion, " + system.name());
     Result<std::vector<OodRow>> ood =

@@ -47,6 +47,7 @@ struct EvaluateOptions {
   std::vector<std::string> recorded;  // Folders of other programs' outputs, see Recorded.
   std::vector<UnseenSplit> unseen;
   std::vector<std::string> ood;  // Motion files.
+  std::string walker_model;      // File of the walker, whose walks are restyled too; or empty.
   AccuracyFloor floor;
   std::optional<int64_t> steps;  // For every training, instead of the recipe's own.
   uint64_t seed = 1;
@@ -64,6 +65,8 @@ struct TestSet {
   TrainingData training;          // Takes and pairs of the training split.
   std::vector<TestInput> inputs;  // Neutral test takes,
   std::vector<TestInput> styled;  // and styled ones.
+  std::vector<TestInput> others;  // Walks of people without styles,
+  std::vector<TestInput> walker;  // and of the program's walker.
   AlignedTakes aligned;
   Evaluator evaluator;
   PerformerJudges performers;

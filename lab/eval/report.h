@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "eval/arrival.h"
 #include "eval/clip_verdict.h"
 #include "eval/disturbances.h"
 #include "eval/metrics.h"
@@ -56,6 +57,7 @@ struct SystemReport {
   // performer's classifier; and other performers' motion in the style, classified by that of the
   // style's performer.
   std::vector<ClipVerdict> clips, clips_across;
+  std::vector<StyleArrival> arrival;  // On walks.
   std::vector<OodRow> ood;
   std::vector<DisturbanceRow> disturbances;
   std::vector<PredictionRow> prediction;        // Empty if the model has no predictor.

@@ -282,6 +282,50 @@ Json disturbances_json(const std::vector<DisturbanceRow>& rows) {
   return out;
 }
 
+Json movement_json(const Movement& shares) {
+  Json out = Json::object();
+  for (size_t t = 0; t < shares.size(); ++t) out[kMovementTraits[t].key] = number(shares[t]);
+  return out;
+}
+
+Json arrival_summary_json(const ArrivalSummary& of) {
+  return {{"traits", of.traits},
+          {"median", number(of.median)},
+          {"below_half", number(of.below_half)},
+          {"wrong_sign", number(of.wrong_sign)},
+          {"by_trait", movement_json(of.by_trait)},
+          {"side", number(of.side)},
+          {"styles_with_side", of.sided},
+          {"styles_in_step", of.in_step}};
+}
+
+// How much of each style's movement and side arrives on walks; real test takes beside.
+Json arrival_json(const std::vector<StyleArrival>& styles) {
+  Json out;
+  out["real"] = arrival_summary_json(summarize(styles, real_shares));
+  out["own"] = arrival_summary_json(summarize(styles, made_shares<Walks::own>));
+  out["others"] = arrival_summary_json(summarize(styles, made_shares<Walks::others>));
+  out["walker"] = arrival_summary_json(summarize(styles, made_shares<Walks::walker>));
+  out["by_style"] = Json::object();
+  for (const StyleArrival& style : styles) {
+    Json& entry = out["by_style"][style.style];
+    entry["change"] = movement_json(style.change);
+    entry["side_cm"] = number(style.side_cm);
+    entry["real_steps"] = {number(style.slowest), number(style.fastest)};
+    entry["from_input_cm"] = number(style.from_input_cm);
+    entry["nearest"] = style.nearest;
+    entry["nearest_cm"] = number(style.nearest_cm);
+    const auto add = [&](const char* key, const ArrivedShares& shares) {
+      entry[key] = {{"movement", movement_json(shares.movement)},
+                    {"side", number(shares.side)},
+                    {"steps", number(shares.steps)}};
+    };
+    add("real", style.real);
+    for (size_t w = 0; w < kWalksKeys.size(); ++w) add(kWalksKeys[w], style.made[w]);
+  }
+  return out;
+}
+
 Json prediction_json(const std::vector<PredictionRow>& rows) {
   Json out = Json::object();
   for (const PredictionRow& row : rows) {
@@ -358,6 +402,7 @@ Json system_json(const SystemReport& system, const Report& report) {
   out["unseen_splits"] = unseen_splits_json(system.unseen);
   out["foreign"] = ood_json(system.ood);
   out["disturbances"] = disturbances_json(system.disturbances);
+  out["arrival"] = arrival_json(system.arrival);
   out["foresight"] = prediction_json(system.prediction);
   out["cc"] = number(system.cc);
   out["sc"] = number(system.sc);

@@ -25,7 +25,7 @@ struct Group {
   std::string label;
   std::vector<Column> columns;
 };
-using Rows = std::vector<std::pair<std::string, Json>>;
+using NamedRows = std::vector<std::pair<std::string, Json>>;
 
 std::string cell(const Json& row, const Column& column) {
   const Json::json_pointer place(column.place);
@@ -35,7 +35,8 @@ std::string cell(const Json& row, const Column& column) {
   return number_text(row[place], column.digits);
 }
 
-std::string table(const std::string& names, const std::vector<Group>& groups, const Rows& rows) {
+std::string table(const std::string& names, const std::vector<Group>& groups,
+                  const NamedRows& rows) {
   TextTable out(names);
   for (const Group& group : groups) {
     std::vector<std::string> labels;
@@ -52,7 +53,7 @@ std::string table(const std::string& names, const std::vector<Group>& groups, co
   return out.str();
 }
 
-// Rows with their names, and a summary row or null.
+// NamedRows with their names, and a summary row or null.
 struct Source {
   std::string label;
   Json rows, total;
@@ -85,7 +86,7 @@ std::string side_by_side(const std::string& names, const std::vector<Source>& so
       column.place.insert(0, "/" + std::to_string(s));
     }
   }
-  Rows rows;
+  NamedRows rows;
   for (const std::string& name : row_names) {
     Json& row = rows.emplace_back(name, Json::array()).second;
     for (const Source& source : sources) row.push_back(source.rows.value(name, Json()));
@@ -98,8 +99,8 @@ std::string side_by_side(const std::string& names, const std::vector<Source>& so
 }
 
 // The value of each system at `place`, skipping systems where `needed` is empty.
-Rows of_systems(const Json& report, const std::string& place, const std::string& needed) {
-  Rows rows;
+NamedRows of_systems(const Json& report, const std::string& place, const std::string& needed) {
+  NamedRows rows;
   for (const auto& [name, system] : report["systems"].items()) {
     if (system[Json::json_pointer(needed)].empty()) continue;
     rows.emplace_back(name, system[Json::json_pointer(place)]);
@@ -135,7 +136,7 @@ std::string overall(const Json& report) {
   for (const Measure& measure : measures()) {
     group.columns.push_back(measured(measure.label, measure.key));
   }
-  Rows rows = of_systems(report, "/seen", "/seen");
+  NamedRows rows = of_systems(report, "/seen", "/seen");
   rows.insert(rows.begin(), {{"real takes", report["real"]}, {"input", report["input"]}});
   return table("", {group}, rows);
 }
@@ -156,7 +157,7 @@ std::string by_content(const Json& report) {
 
 // One number of each system, with strengths from left to right.
 std::string strengths(const Json& report, const std::string& measure) {
-  const Rows rows = of_systems(report, "/strength", "/strength");
+  const NamedRows rows = of_systems(report, "/strength", "/strength");
   Group group;
   for (const auto& [name, row] : rows) {
     for (const auto& [strength, metrics] : row.items()) {
@@ -266,7 +267,7 @@ std::string shots(const Json& report) {
 }
 
 std::string ood_styles(const Json& report) {
-  Rows rows = of_systems(report, "/foreign/summary", "/foreign/rows");
+  NamedRows rows = of_systems(report, "/foreign/summary", "/foreign/rows");
   if (rows.empty()) return "";
   const Json& reference = report["foreign_reference"];
   rows.insert(rows.begin(), {{"real takes", reference["real"]},
@@ -290,6 +291,22 @@ std::string disturbances(const Json& report) {
   return side_by_side("disturbance", systems, names_of(systems, order), "");
 }
 
+std::string arrival(const Json& system) {
+  NamedRows rows;
+  if (system["arrival"]["by_style"].empty()) return "";
+  for (const char* walks : {"real", "own", "others", "walker"}) {
+    rows.emplace_back(walks, system["arrival"][walks]);
+  }
+  return table("walks",
+               {{"movement",
+                 {{"median", "/median", 2},
+                  {"below half", "/below_half", 2},
+                  {"wrong sign", "/wrong_sign", 2}}},
+                {"", {{"side", "/side", 2}}},
+                {"", {{"styles in step", "/styles_in_step", 0}}}},
+               rows);
+}
+
 std::string prediction(const Json& contents) {
   std::vector<Group> groups;
   for (const double seconds : kPredictionSeconds) {
@@ -299,14 +316,14 @@ std::string prediction(const Json& contents) {
                        {"velocity", "/" + time + "/velocity_cm", 2},
                        {"held", "/" + time + "/held_cm", 2}}});
   }
-  Rows rows;
+  NamedRows rows;
   for (const auto& [content, row] : contents.items()) rows.emplace_back(content, row);
   return table("content", groups, rows);
 }
 
 std::string removal_text(const Json& removal) {
   const auto rows_of = [&](const std::vector<std::pair<std::string, const char*>>& names) {
-    Rows rows;
+    NamedRows rows;
     for (const auto& [name, key] : names) {
       const Json& row = removal[key];
       if (row["clips"] != 0 || row.value("neutral_clips", 0) != 0) rows.emplace_back(name, row);
@@ -381,6 +398,10 @@ std::string report_text(const Report& of) {
   text += titled("The same: how much of the style there is", ood_styles(report));
   text += titled("The same: feet, seats and hands in cm (turn in degrees)", shots(report));
   text += titled("Disturbed windows: pose error in cm", disturbances(report));
+  for (const auto& [name, system] : report["systems"].items()) {
+    text +=
+        titled(cut_text("What arrives of a style on walks: " + name, kTextWidth), arrival(system));
+  }
   for (const auto& [name, system] : report["systems"].items()) {
     text += titled(cut_text("Input prediction, constant velocity, held: " + name, kTextWidth),
                    prediction(system["foresight"]));

@@ -246,6 +246,29 @@ function disturbances() {
     }))];
 }
 
+// How much of the styles' movement and side arrives on walks, each share of the real change.
+function arrival() {
+  const WALKS = [['real', 'real takes'], ['own', "the performer's walks"], ['others', "other people's walks"],
+    ['walker', "the walker's"]];
+  return systems.flatMap(([name, system]) => {
+    const of = system.arrival, styles = Object.entries(of.by_style);
+    if (!styles.length) return [];
+    const traits = Object.keys(of.real.by_trait);
+    const columns = [...traits.map((trait) => trait.replaceAll('_', ' ')), 'side', 'steps a second'];
+    return [
+      table('walks', [{ label: 'movement', columns: ['median', 'below half', 'wrong sign', ...columns.slice(0, -2)] },
+        { label: '', columns: ['side', 'styles in step'] }],
+      WALKS.map(([key, label]) => ({ name: label, cells: [
+        number(of[key].median, 2), number(of[key].below_half, 2), number(of[key].wrong_sign, 2),
+        ...traits.map((trait) => number(of[key].by_trait[trait], 2)),
+        number(of[key].side, 2), cell(String(of[key].styles_in_step))] })), name),
+      table('style', WALKS.slice(1).map(([, label]) => ({ label, columns })), styles.map(([style, found]) => ({
+        name: style,
+        cells: WALKS.slice(1).flatMap(([key]) => [...traits.map((trait) => number(found[key].movement[trait], 2)),
+          number(found[key].side, 2), number(found[key].steps, 1)]) })), name)];
+  });
+}
+
 function foresight() {
   return systems.map(([name, system]) => {
     const rows = Object.entries(system.foresight);
@@ -399,6 +422,10 @@ const SECTIONS = [
   ['disturbances', 'Disturbances',
     'Pose error when only the input windows of a system are disturbed.',
     disturbances],
+  ['arrival', 'What arrives of a style',
+    'Walks restyled at strength 1: the share of the change between neutral and styled real takes that arrives, ' +
+    'for each movement that differs visibly, and for what left and right do differently. 1 is as captured.',
+    arrival],
   ['foresight', 'Input prediction',
     'Mean joint error in centimetres when the input is predicted, continued at constant velocity, or held. ' +
     'Live, a style that is faster than its input needs prediction.',
