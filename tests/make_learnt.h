@@ -37,7 +37,9 @@ inline void add_learnt(TensorFile& model, int learnt, const std::string& name,
   }
   model.metadata["styles"] += name + "\n";
   model.metadata["style_descriptions"] += "looks " + name + "\n";
-  if (model.metadata.contains("style_groups")) model.metadata["style_groups"] += "\n";
+  for (const char* list : {"style_groups", "style_sides", "style_words", "style_gesture_rates"}) {
+    if (model.metadata.contains(list)) model.metadata[list] += "\n";
+  }
   std::string& origins = model.metadata["style_origins"];
   const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
   while (lines(origins) + 1 < lines(model.metadata["styles"])) origins += "\n";

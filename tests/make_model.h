@@ -89,6 +89,27 @@ inline void add_gate(TensorFile& file, float limit, float mean = 0) {
   file.tensors["gate.limit"] = constant_tensor(1, limit);
 }
 
+// Makes the pose heads of a model of make_model() read the activations of all layers: `added` is the
+// size of the weights of those that heads do not read otherwise. The gate, if any, is around `mean`,
+// at which the answers are those of the heads before.
+inline void reduce_heads(TensorFile& file, float added, float mean = 0, uint64_t seed = 7) {
+  Random random(seed);
+  const int hidden = static_cast<int>(file.tensors.at("pose.trunk.1.bias").values.size());
+  for (int h = 0; file.tensors.contains("pose.head." + std::to_string(h) + ".bias"); ++h) {
+    const std::string head = "pose.head." + std::to_string(h);
+    const std::string reduce = "pose.reduce." + std::to_string(h);
+    Tensor weights = random_tensor({2 * hidden, hidden}, added, random);
+    for (int i = 0; i < hidden * hidden; ++i) {
+      weights.values[size_t(hidden) * hidden + i] = i % (hidden + 1) == 0 ? 1.0f : 0.0f;
+    }
+    file.tensors[reduce + ".weight"] = weights;
+    file.tensors[reduce + ".bias"] = constant_tensor(hidden, -mean);
+    const std::vector<float>& from = file.tensors.at(head + ".weight").values;
+    std::vector<float>& bias = file.tensors.at(head + ".bias").values;
+    for (size_t i = 0; i < from.size(); ++i) bias[i % bias.size()] += mean * from[i];
+  }
+}
+
 // Makes a model of make_model() ask for this tempo, in all styles and on any motion.
 inline void set_rate(TensorFile& file, double rate) {
   for (int h = 0; file.tensors.contains("timing.head." + std::to_string(h) + ".bias"); ++h) {

@@ -37,9 +37,11 @@ class OnnxWriter {
       movement_ = driven("movement", kMovementEven);
     }
     pose_ = layers("pose", input);
+    const bool reads_all = file_.tensors.contains("pose.reduce.0.weight");
     std::string hidden = pose_.back();
     if (file_.tensors.contains("gate.limit")) hidden = shrink(hidden);
-    std::vector<std::string> pose = heads("pose", hidden, model_.recipe().outputs);
+    std::vector<std::string> pose =
+        reads_all ? reduced_heads() : heads("pose", hidden, model_.recipe().outputs);
     std::vector<std::string> timing, contact;
     if (has("timing")) timing = heads("timing", layers("timing", input).back(), 1);
     if (has("contact")) contact = heads("contact", layers("contact", input).back(), 2);
@@ -188,23 +190,44 @@ class OnnxWriter {
     return terms;
   }
 
+  // The activations of all hidden layers of the pose network.
+  const std::string& activations() {
+    if (activations_.empty()) activations_ = graph_.concat("activations", pose_);
+    return activations_;
+  }
+
+  // Pose heads that read combinations of all activations, as terms of a sum.
+  std::vector<std::string> reduced_heads() {
+    std::vector<std::string> terms;
+    for (size_t s = 0; s < built_in(); ++s) {
+      const std::string number = std::to_string(s), name = "pose.head." + number;
+      std::string reduced = dense("pose.reduce." + number, activations());
+      if (!gate_.empty()) {
+        reduced = graph_.add("Mul", "pose.reduce." + number + ".open", {reduced, gate_});
+      }
+      terms.push_back(graph_.add(
+          "Mul", name + ".driven",
+          {dense(name, reduced), columns(name + ".strength", posture_, s, 1)}));
+    }
+    return terms;
+  }
+
   // A learnt style: closed form on the activations of all hidden layers, with its own gate.
   void add_learnt(size_t k, std::vector<std::string>& pose, std::vector<std::string>& timing,
                   std::vector<std::string>& contact) {
     const std::string name = "learnt." + std::to_string(k);
-    if (activations_.empty()) {
+    if (k == 0) {
       std::vector<float> factor;
       for (const float scale : tensor("learn.scale").values) factor.push_back(1 / scale);
       graph_.constant("learn.factor", tensor("learn.scale").shape, factor);
-      activations_ = graph_.concat("activations", pose_);
     }
     const std::string mean = constant(name + ".mean");
-    const std::string centred = graph_.add("Sub", name + ".centred", {activations_, mean});
+    const std::string centred = graph_.add("Sub", name + ".centred", {activations(), mean});
     const std::string apart = graph_.add("Mul", name + ".apart", {centred, "learn.factor"});
     const std::string rest =
         graph_.add("Mul", name + ".rest",
                    {square_length(name + ".apart", apart), constant(name + ".gate.rest")});
-    const std::string along = dense(name + ".gate", activations_);
+    const std::string along = dense(name + ".gate", activations());
     std::string far = graph_.add("Mul", name + ".squares", {along, along});
     far = graph_.add("Mul", name + ".worths", {far, constant(name + ".gate.worth")});
     far = graph_.sum(name + ".far", {rest, graph_.row_sum(name + ".along", far)});
@@ -273,7 +296,7 @@ class OnnxWriter {
   std::string one_, windows_, strengths_;
   std::string posture_, movement_;  // Effective strengths.
   std::vector<std::string> pose_;   // Activations of the pose network's hidden layers.
-  std::string activations_;         // All of them, if there are learnt styles.
+  std::string activations_;         // All of them together, once they are read.
   std::string gate_;                // Of the built-in styles; empty if the model has none.
   std::vector<std::string> learnt_gates_;
 };

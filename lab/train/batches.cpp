@@ -102,6 +102,18 @@ Batch BatchMaker::plain(const std::vector<int>& samples) const {
   return fill(rows, {}, nullptr);
 }
 
+Batch BatchMaker::disturbed(const std::vector<int>& samples, Random& random) const {
+  std::vector<Row> rows;
+  std::vector<Disturbed> draws;
+  Disturbance how = kOtherPeople;
+  how.tempo = settings_.disturbance.tempo;
+  for (const int i : samples) {
+    rows.push_back({i, false, static_cast<int>(draws.size())});
+    draws.push_back(draw_disturbance(how, set_.units(), random));
+  }
+  return fill(rows, draws, &random);
+}
+
 Batch BatchMaker::fill(const std::vector<Row>& rows, const std::vector<Disturbed>& draws,
                        Random* random) const {
   const int64_t count = static_cast<int64_t>(rows.size());
@@ -135,11 +147,16 @@ Batch BatchMaker::fill(const std::vector<Row>& rows, const std::vector<Disturbed
 
     float* pose = batch.pose.data_ptr<float>() + r * outputs;
     std::copy_n(set_.target(row.sample).begin(), outputs, pose);
+    // A window that is played faster has less time of its own, in which the root moves faster.
+    const float tempo = row.disturbed >= 0 ? draws[row.disturbed].tempo : 1;
+    if (recipe.style_heads) {
+      for (int o = StyleDelta::kSize - kRootFeatures; o < StyleDelta::kSize; ++o) pose[o] *= tempo;
+    }
     if (row.mirrored) recipe.mirror_target({pose, static_cast<size_t>(outputs)});
     for (int i = 0; i < outputs; ++i) {
       pose[i] = (pose[i] - units_.mean[i]) / units_.scale[i];
     }
-    batch.log_rate.data_ptr<float>()[r] = sample.log_rate;
+    batch.log_rate.data_ptr<float>()[r] = sample.log_rate - std::log(tempo);
     float* contacts = batch.contacts.data_ptr<float>() + r * kFeet;
     for (int f = 0; f < kFeet; ++f) contacts[f] = sample.contacts[row.mirrored ? 1 - f : f];
   }

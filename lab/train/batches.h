@@ -36,6 +36,9 @@ class BatchMaker {
   // The given samples in order, undisturbed, for validation.
   Batch plain(const std::vector<int>& samples) const;
 
+  // The same, each disturbed.
+  Batch disturbed(const std::vector<int>& samples, Random& random) const;
+
   const std::vector<int>& choice() const { return choice_; }
 
  private:

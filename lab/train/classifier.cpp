@@ -8,7 +8,6 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "learn/disturbance.h"
-#include "pose/mirror.h"
 
 namespace panache {
 namespace {
@@ -117,7 +116,6 @@ void Classifier::learn(const std::vector<Take>& takes, const std::vector<int>& l
         const std::span out(x.data_ptr<float>() + size_t(r) * kClassifiedInputs, kClassifiedInputs);
         copy_window(takes[take], first, out);
         if (settings_.disturbed) {
-          if (random.bits() & 1) mirror_poses(PoseLayout::positions, out);
           disturb(draw_disturbance(kDisturbance, units_, random), kDisturbance, random, out);
         }
         normalise(out);

@@ -31,8 +31,8 @@ struct ClassifierSettings {
   int hidden = 96;   // Units of each of the two layers.
   int networks = 2;  // Their probabilities are averaged.
   int steps = 0;     // 0: about twelve epochs.
-  // Mirrors half of the windows, and varies all of them as other bodies and captures would: for
-  // classifying people who are not in the training data.
+  // Varies all windows as other bodies and captures would: for classifying people who are not in
+  // the training data.
   bool disturbed = false;
 };
 

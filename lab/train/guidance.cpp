@@ -170,14 +170,11 @@ Guidance::Guidance(const SampleSet& set, const std::vector<int>& choice, const O
   torch::Tensor sum = torch::zeros({styles_, outputs}), squares = torch::zeros({styles_, outputs});
   torch::Tensor count = torch::zeros({styles_, 1});
   for (const auto& [cell, samples] : cells) {
-    torch::Tensor rows = torch::empty({2 * static_cast<int64_t>(samples.size()), outputs});
+    torch::Tensor rows = torch::empty({static_cast<int64_t>(samples.size()), outputs});
     float* row = rows.data_ptr<float>();
     for (const int i : samples) {
-      for (const bool mirrored : {false, true}) {
-        std::copy_n(set.target(i).begin(), outputs, row);
-        if (mirrored) set.recipe().mirror_target({row, static_cast<size_t>(outputs)});
-        row += outputs;
-      }
+      std::copy_n(set.target(i).begin(), outputs, row);
+      row += outputs;
     }
     rows = rows / output_scale_;
     sum[cell.first] += rows.mean(0);

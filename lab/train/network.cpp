@@ -76,6 +76,16 @@ NetworkTrainer::NetworkTrainer(const NetworkShape& shape, const OptimizerSetting
   head_biases_ = views[2 * shape.layers + 1];
 }
 
+torch::Tensor NetworkTrainer::activations(const torch::Tensor& x) const {
+  std::vector<torch::Tensor> layers;
+  torch::Tensor h = x;
+  for (int l = 0; l < shape_.layers; ++l) {
+    h = torch::elu(torch::addmm(biases_[l], h, weights_[l]));
+    layers.push_back(h);
+  }
+  return torch::cat(layers, 1);
+}
+
 torch::Tensor NetworkTrainer::hidden(const torch::Tensor& x, Random* random) const {
   torch::Tensor h = x;
   const float keep = 1 - settings_.dropout;

@@ -39,6 +39,8 @@ class NetworkTrainer {
   torch::Tensor forward(const torch::Tensor& x, const std::vector<int64_t>& group_sizes,
                         Random* random) const;
 
+  // Activations of all hidden layers, first layer first. [rows][layers * hidden]
+  torch::Tensor activations(const torch::Tensor& x) const;
   // Activations of the last hidden layer. [rows][hidden]
   torch::Tensor hidden(const torch::Tensor& x, Random* random) const;
 

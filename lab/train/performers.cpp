@@ -158,7 +158,6 @@ void take_off_performers(const std::vector<Take>& takes, SampleSet& set) {
     change.velocity_forward -= persons.velocity_forward;
     change.turn_rate -= persons.turn_rate;
     pack(change, target);
-    sample.log_rate -= numbers[kTempo];
   }
 }
 

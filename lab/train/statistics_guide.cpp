@@ -16,19 +16,16 @@ constexpr double kTemperature = 4;  // Divides the scores, which are overconfide
 // Bone directions, their deviations, joint speeds, height of the hips.
 constexpr int kStatistics = 6 * (kHumanJoints - 1) + kHumanJoints + 2;
 
-// Windows of a take and of its mirror image. [windows][kClassifiedPoses][21][3]
+// Windows of a take. [windows][kClassifiedPoses][21][3]
 torch::Tensor windows_of(const Take& take) {
   const int span = (kClassifiedPoses - 1) * kClassifiedSpacing;
   const int count = 1 + std::max(0, take.frames() - 1 - span) / kHop;
-  torch::Tensor bodies = torch::empty({2 * count, kClassifiedPoses, kHumanJoints, 3});
+  torch::Tensor bodies = torch::empty({count, kClassifiedPoses, kHumanJoints, 3});
   float* to = bodies.data_ptr<float>();
-  for (const bool flipped : {false, true}) {
-    for (int w = 0; w < count; ++w) {
-      for (int p = 0; p < kClassifiedPoses; ++p) {
-        const int frame = std::min(w * kHop + p * kClassifiedSpacing, take.frames() - 1);
-        const HumanPositions body = flipped ? mirrored(take.body[frame]) : take.body[frame];
-        for (const Vec3& joint : body) *to++ = joint.x, *to++ = joint.y, *to++ = joint.z;
-      }
+  for (int w = 0; w < count; ++w) {
+    for (int p = 0; p < kClassifiedPoses; ++p) {
+      const int frame = std::min(w * kHop + p * kClassifiedSpacing, take.frames() - 1);
+      for (const Vec3& joint : take.body[frame]) *to++ = joint.x, *to++ = joint.y, *to++ = joint.z;
     }
   }
   return bodies;

@@ -22,8 +22,7 @@ torch::Tensor motion_statistics(const torch::Tensor& bodies);
 
 class StatisticsGuide {
  public:
-  // Learns to predict labels[i] from takes[i] and their mirror images; skips takes whose label is
-  // not among `classes`.
+  // Learns to predict labels[i] from takes[i]; skips takes whose label is not among `classes`.
   StatisticsGuide(const std::vector<Take>& takes, const std::vector<std::string>& labels,
                   const std::vector<std::string>& classes);
 

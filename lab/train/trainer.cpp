@@ -15,9 +15,9 @@
 #include "train/coverage.h"
 #include "train/export.h"
 #include "train/fingerprint.h"
+#include "train/fit_heads.h"
 #include "train/gate.h"
 #include "train/guidance.h"
-#include "train/neutral_tempos.h"
 #include "train/performers.h"
 #include "train/position_loss.h"
 #include "train/recogniser.h"
@@ -236,8 +236,8 @@ std::vector<int> pick_validation(const SampleSet& set, const std::vector<int>& s
   return picked;
 }
 
-// The pose network's activations on undisturbed training windows, both sides mirrored; with
-// guidance, a third of the rows are of its unlabelled motion.
+// The pose network's activations on undisturbed training windows; with guidance, a third of
+// the rows are of its unlabelled motion.
 torch::Tensor clean_features(const SampleSet& set, const std::vector<int>& choice, int styles,
                              BatchSettings batch, const OutputUnits& units,
                              const Guidance* guidance, const NetworkTrainer& pose, uint64_t seed) {
@@ -286,7 +286,11 @@ Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<St
     if (!added) return added.error();
     std::vector<StyleName> removed = styles;
     removed.push_back({kAnyStyle, {}, "whatever style it is"});
-    return train(*std::move(data), removed, options);
+    // A style that is to be removed shows its side, so its mirror image can be removed as well.
+    TrainOptions of_both_sides = options;
+    of_both_sides.settings.batch.mirrored = true;
+    of_both_sides.settings.heads.rank = 0;
+    return train(*std::move(data), removed, of_both_sides);
   }
   Result<TrainingData> data = prepare_training(rows, PoseLayout::positions, unlabelled);
   if (!data) return data.error();
@@ -308,7 +312,6 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   SampleSet set(data.takes, removes ? data.removal : data.pairings, names, recipe,
                 settings.neutral_samples);
   if (recipe.learns_styles) {
-    level_neutral_tempos(data.takes, data.pairings, set);
     // A style that was removed leaves neutral motion of any person.
     if (!removes) take_off_performers(data.takes, set);
   }
@@ -387,6 +390,10 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
         trained.model, removes ? kTrustedByRemovers : kTrusted);
     if (auto added = add_activation_statistics(data.takes, trained.model); !added) {
       return added.error();
+    }
+    if (settings.heads.rank > 0) {
+      fit_heads(set, choice, units, settings.batch, settings.heads, guide, networks[0],
+                options.seed + 3, trained.model);
     }
   }
   if (removes) {

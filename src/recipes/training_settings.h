@@ -44,6 +44,14 @@ inline constexpr Disturbance kOtherPeople = [] {
   return how;
 }();
 
+// The same at any tempo, from half of the usual to twice as fast: the tempo of a style is learnt as
+// that of its real takes, not as a ratio to one performer's neutral walk.
+inline constexpr Disturbance kOtherTempos = [] {
+  Disturbance how = kUsualDisturbance;
+  how.tempo = 0.25f;
+  return how;
+}();
+
 struct BatchSettings {
   int size = 256;
   // Rows grouped by style and in pairs of neighbouring frames, drawn by the square root of each
@@ -94,6 +102,19 @@ struct GuidanceSettings {
                              .amplitude = 0.2f};
 };
 
+// How the pose heads are fitted in closed form once the trunk is trained: lab/train/fit_heads.h.
+struct HeadSettings {
+  int64_t rank = 0;          // Combinations of activations that a head reads; 0: heads are not fitted.
+  double penalty = 0.5;      // Of a squared weight, in variances of a standardised activation.
+  int max_samples = 1500;    // Of a style, evenly spread,
+  int copies = 4;            // each once as it is and in so many disturbed copies.
+  int sequences = 200;       // Of motion without styles, one second each,
+  double guided = 0.5;       // and its weight beside the style's own windows,
+  double alike = 2;          // where it is further from them than so many times their own extent.
+  double gain = 0.5;         // Share of the lost variation that is made up for in torso, arms and bob,
+  double max_gain = 1.5;     // at most so much.
+};
+
 struct TrainingSettings {
   int64_t steps = 0;
   bool neutral_samples = false;  // Neutral takes are samples too, with themselves as the target.
@@ -104,6 +125,7 @@ struct TrainingSettings {
   float smoothness = 0;            // Weight of the loss on frame-to-frame change,
   float positions = 0;             // and of the loss on joint positions: PositionLoss.
   GuidanceSettings guidance = {};  // If there is motion without styles.
+  HeadSettings heads = {};
   int64_t predictor_steps = 0;     // Training steps of the input predictor; 0: the model has none.
 };
 

@@ -24,6 +24,7 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
                            {"timing", 1, per_style ? styles : 1},
                            {"contact", 2, per_style ? styles + 1 : 1}};
   std::array<Trunk, kNetworks> trunks;
+  std::array<int, kNetworks> hidden;
   for (size_t n = 0; n < kNetworks; ++n) {
     const std::string prefix = networks[n].prefix;
     // Styles are learnt on the pose network's trunk; trunks without heads may be missing.
@@ -36,10 +37,19 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
                    std::to_string(trunk->widest()) + " units; expected at most " +
                    std::to_string(kMaxUnits)};
     }
+    hidden[n] = trunk->outputs();
+    trunks[n] = *std::move(trunk);
+  }
+  trunks_ = TrunkTrio(std::move(trunks));
+  Result<std::vector<int>> reduced = read_reductions(file, per_style ? styles : 0, name);
+  if (!reduced) return reduced.error();
+  for (size_t n = 0; n < kNetworks; ++n) {
     std::vector<DenseLayer> heads;
     for (int h = 0; h < networks[n].heads; ++h) {
-      Result<DenseLayer> head = read_layer(file, prefix + ".head." + std::to_string(h),
-                                           trunk->outputs(), networks[n].outputs, name);
+      const bool reads_all = n == kPose && !reduced->empty();
+      Result<DenseLayer> head = read_layer(
+          file, networks[n].prefix + std::string(".head.") + std::to_string(h),
+          reads_all ? (*reduced)[static_cast<size_t>(h)] : hidden[n], networks[n].outputs, name);
       if (!head) return head.error();
       heads.push_back(*std::move(head));
     }
@@ -52,15 +62,33 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
     } else {
       for (const DenseLayer& head : heads) heads_[n].layers.emplace_back(head);
     }
-    trunks[n] = *std::move(trunk);
   }
   if (static_cast<size_t>(inputs) > kMaxInputs) {
     return Error{name + ": has " + std::to_string(styles) + " styles; expected at most " +
                  std::to_string(kMaxInputs - 800) + " with this recipe"};
   }
-  trunks_ = TrunkTrio(std::move(trunks));
   if (auto read = read_activations(file, name); !read) return read.error();
   return read_learnt(file, learnt, name);
+}
+
+// The number of units that each pose head reads, or none if heads read the last layer.
+Result<std::vector<int>> Model::read_reductions(const TensorFile& file, int styles,
+                                                const std::string& name) {
+  std::vector<int> units;
+  if (!file.tensors.contains("pose.reduce.0.weight")) return units;
+  for (int s = 0; s < styles; ++s) {
+    const std::string key = "pose.reduce." + std::to_string(s);
+    Result<DenseLayer> layer =
+        read_layer(file, key, static_cast<int>(activation_count()), -1, name);
+    if (!layer) return layer.error();
+    if (layer->outputs > kMaxReduced) {
+      return Error{name + ": layer '" + key + "' has " + std::to_string(layer->outputs) +
+                   " units; expected at most " + std::to_string(kMaxReduced)};
+    }
+    units.push_back(layer->outputs);
+    reductions_.emplace_back(*layer);
+  }
+  return units;
 }
 
 Result<void> Model::read_recognition(const TensorFile& file, const std::string& name) {
@@ -83,9 +111,12 @@ Result<void> Model::measure_scratch(const std::string& name) {
   for (const Heads& heads : heads_) {
     for (const PackedLayer& layer : heads.layers) answers = std::max(answers, layer.width());
   }
-  const size_t activations = padded(can_learn() ? activation_count() : trunks_.outputs(kPose));
+  const bool reads_all = can_learn() || !reductions_.empty();
+  const size_t activations = padded(reads_all ? activation_count() : trunks_.outputs(kPose));
+  size_t reduced = 0;
+  for (const PackedLayer& layer : reductions_) reduced = std::max(reduced, layer.width());
   scratch_size_ = padded(static_cast<size_t>(trunks_.inputs())) + trunks_.scratch_size() +
-                  3 * activations + answers;
+                  3 * activations + reduced + answers;
   if (scratch_size_ <= kMaxScratch) return {};
   return Error{name + ": a step works in " + std::to_string(scratch_size_) +
                " numbers; expected trunks of fewer layers, so that it takes at most " +
@@ -147,7 +178,11 @@ void Model::measure_stances() {
     for (size_t i = 0; i < change.size(); ++i) change[i] = answer[i] * output_scale_[i];
     stances_.push_back(stance_of(unpack(change)));
   };
-  for (const PackedLayer& head : heads_[kPose].layers) mean_answer(head, gate_.mean);
+  // Reductions are zero on average.
+  const std::vector<float> zeros(kMaxReduced);
+  for (const PackedLayer& head : heads_[kPose].layers) {
+    mean_answer(head, reductions_.empty() ? gate_.mean : zeros);
+  }
   for (const Learnt& learnt : learnt_) mean_answer(learnt.head, learnt.mean);
 }
 

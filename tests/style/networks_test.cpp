@@ -106,9 +106,11 @@ TEST(Networks, each_style_has_its_own_tempo_and_contacts) {
 
 // Forward passes of several characters at once give each what it gets alone, its gate included.
 TEST(PassesTogether, have_the_bits_of_passes_alone) {
-  for (const bool int8 : {false, true}) {
+  for (const int kind : {0, 1, 2, 3}) {
+    const bool int8 = kind % 2 == 1;
     TensorFile file = test::make_model({"old", "proud", "sad"});
     test::add_gate(file, 2);
+    if (kind >= 2) test::reduce_heads(file, 0.3f);
     const auto model = read(int8 ? quantize(file) : file);
     constexpr size_t kCount = 11;
     std::vector<StyleNetworks> together(kCount, StyleNetworks(model)), alone = together;
@@ -150,6 +152,46 @@ TEST(Networks, in_int8_answer_like_float_ones) {
   EXPECT_GT(apart, 0);
   // Three layers of weights that are off by up to a 254th of the largest of their column.
   EXPECT_LT(std::sqrt(apart / size), 0.03);
+}
+
+// The units of a head that reads combinations of activations are the last layer's here, so the
+// answers are those of a head that reads this layer, with any gate.
+TEST(ReducedHeads, answer_as_heads_on_the_last_layer_where_they_read_only_that) {
+  for (const float limit : {1e3f, 1.0f, 1e-4f}) {
+    TensorFile file = test::make_model({"old", "proud"});
+    test::add_gate(file, limit, 0.3f);
+    StyleNetworks direct(read(file));
+    test::reduce_heads(file, 0, 0.3f);
+    StyleNetworks reduced(read(file));
+    const auto expected = answer(direct, window_of(2), {0.7f, -0.4f});
+    const auto got = answer(reduced, window_of(2), {0.7f, -0.4f});
+    EXPECT_EQ(reduced.gate(), direct.gate());
+    expect_near(got, expected, 1e-6f);  // Sums of 16 products below 1, times 0.1.
+    for (const float none : answer(reduced, window_of(2), {0, 0})) EXPECT_EQ(none, 0);
+  }
+}
+
+TEST(ReducedHeads, read_the_first_layer_too) {
+  TensorFile file = test::make_model({"old"});
+  test::reduce_heads(file, 0);
+  StyleNetworks last(read(file));
+  test::reduce_heads(file, 0.5f);
+  StyleNetworks all(read(file));
+  const auto a = answer(last, window_of(1), {1}), b = answer(all, window_of(1), {1});
+  float most = 0;
+  for (size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  EXPECT_GT(most, 0.01f);
+}
+
+TEST(ReducedHeads, of_the_wrong_shape_are_rejected) {
+  TensorFile file = test::make_model({"old"});
+  test::reduce_heads(file, 0);
+  file.tensors["pose.reduce.0.weight"] = test::constant_tensor(3, 0);
+  EXPECT_EQ(Model::create(file, "m").error().message,
+            "m: tensor 'pose.reduce.0.weight' has shape [3]; expected [32, any]");
+  test::reduce_heads(file, 0);
+  file.tensors.erase("pose.reduce.0.bias");
+  EXPECT_FALSE(Model::create(file, "m").ok());
 }
 
 TEST(Gate, a_model_without_one_trusts_everything) {

@@ -92,8 +92,8 @@ TEST_F(OddSteps, a_pause_without_end_is_forgotten_like_any_pause) {
   for (const LiveOptions& options : ways()) {
     LiveStylizer after_an_hour = character(options), after_a_second = character(options);
     const Clip hour = play(after_an_hour, 3600), second = play(after_a_second, 1);
-    // The same but for the rounding of times.
-    EXPECT_LT(apart(hour, second, kOdd), 0.01f);
+    // The same but for the filter's mean of the gate, which takes three seconds to forget.
+    EXPECT_LT(apart(hour, second, kOdd), 0.5f);
     for (const double seconds : {1e5, 1e9, 1e18, 1e30, 1e308, kInfinity}) {
       LiveStylizer odd = character(options);
       const Clip out = play(odd, seconds);
@@ -157,10 +157,10 @@ TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) 
     };
     const auto check = [&](auto&& spoil) {
       LiveStylizer odd = character({}), odd_and_late = character(late);
-      // One frame of rest pose alone leaves 0.58 degrees, by filters of seconds.
+      // One frame of rest pose alone leaves 1.1 degrees, by filters of seconds.
       const Clip out = play(odd, kStepSeconds, spoil);
       const int later = kOdd + 200;
-      EXPECT_LT(std::min(apart(out, expected, later), apart(out, afresh, later)), 0.7f) << number;
+      EXPECT_LT(std::min(apart(out, expected, later), apart(out, afresh, later)), 1.5f) << number;
       play(odd_and_late, kStepSeconds, spoil);  // Where it is in its cycle is up to its lag.
     };
     for (const size_t joint : {size_t{0}, size_t{3}, size_t{14}, walk_.joints() - 1}) {

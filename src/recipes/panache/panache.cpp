@@ -58,8 +58,9 @@ const Recipe& panache_recipe() noexcept {
                                 .training = {.steps = 20000,
                                              .batch = {.size = 256,
                                                        .by_style = true,
-                                                       .mirrored = true,
+                                                       .mirrored = false,
                                                        .disturbed = true,
+                                                       .disturbance = kOtherTempos,
                                                        .input_clip = 3},
                                              .optimizer = {.learning_rate = 0.004f,
                                                            .one_cycle = true,
@@ -68,6 +69,7 @@ const Recipe& panache_recipe() noexcept {
                                              .smoothness = 0.6f,
                                              .positions = 4,
                                              .guidance = {.sequences = 20},
+                                             .heads = {.rank = 20},
                                              .predictor_steps = 6000}};
   return recipe;
 }
