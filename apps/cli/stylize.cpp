@@ -240,7 +240,8 @@ int stylize(const StylizeOptions& options) {
   wanted.wishes = collect_wishes(options, *wanted.model);
   wanted.removal = read_removal(options.removal);
   const std::optional<CharacterFile>& onto = wanted.onto;
-  if (!options.onto.file.empty()) wanted.onto = need(CharacterFile::open(options.onto));
+  if (!options.onto.file.empty())
+    wanted.onto = need(CharacterFile::open(options.onto, options.batch));
   std::vector<FileJob> files =
       plan_batch(options.batch, {onto ? onto->extension() : "", name_styles(options)}, path);
   if (onto) need(onto->check_outputs(files), kBadUsage);
@@ -287,8 +288,8 @@ void add_stylize(CLI::App& app, int& exit_code) {
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->footer(
-      "Rig, joint names, channel order and frame rate are kept. An FBX file is written\n"
-      "as GLB. The output may be of another format (docs/formats.md).\n\n"
+      "Rig, joint names, channel order and frame rate are kept. The output may be of\n"
+      "another format (docs/formats.md).\n\n"
       "Examples:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh\n"
       "  panache stylize walk.bvh --style old=1           (into walk-old.bvh)\n"
