@@ -26,11 +26,13 @@ constexpr const char* kBreakdown =
     "the FBX reader crashed on it; the file may be damaged; exporting it again, or as GLB, may "
     "help";
 
-// The meshes, skins, materials and pictures of a file; null if Assimp rejects it.
-std::unique_ptr<aiScene> read_meshes(const std::string& bytes) {
+// The meshes, skins, materials and pictures of a file; null if Assimp rejects it. Assimp crashes on
+// animated pivots, and reads animations even if it is told not to.
+std::unique_ptr<aiScene> read_meshes(const std::string& whole, const std::string& path) {
+  const Result<std::string> still = fbx_without_motions(whole, path);
+  const std::string& bytes = still ? *still : whole;
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_CAMERAS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_LIGHTS, false);
   if (!importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx")) return nullptr;
@@ -42,7 +44,7 @@ Result<std::string> convert(const std::string& bytes, bool with_meshes, const st
   const Result<FbxScene> fbx = read_fbx_scene(bytes, path);
   if (!fbx) return fbx.error();
   std::unique_ptr<aiScene> scene;
-  if (fbx->has_meshes && with_meshes) scene = read_meshes(bytes);
+  if (fbx->has_meshes && with_meshes) scene = read_meshes(bytes, path);
   const bool lacks_meshes = fbx->has_meshes && !scene;
   if (scene) {
     set_nodes(*fbx, *scene);

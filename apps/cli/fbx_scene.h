@@ -12,8 +12,8 @@ namespace panache::cli {
 
 // fbx_nodes.cpp: a scene of the nodes and motions alone.
 std::unique_ptr<aiScene> make_scene(const FbxScene& fbx);
-// Gives a scene with meshes the nodes' names, transforms and motions. A mesh stays where it is in
-// the world, as does what it is bound to.
+// Gives a scene with meshes and no animations the nodes' names, transforms and motions. A mesh
+// stays where it is in the world, as does what it is bound to.
 void set_nodes(const FbxScene& fbx, aiScene& scene);
 
 // Prepares a scene for glTF: puts the file's unit and axes on the root (metres, +Y up); sets the

@@ -20,10 +20,6 @@ bool is_joint_kind(std::string_view kind) {
          kind == "FKEffector";
 }
 
-bool is_camera_or_light(std::string_view kind) {
-  return kind == "Camera" || kind == "CameraSwitcher" || kind == "Light";
-}
-
 bool moves(const FbxCurve& curve) {
   return std::ranges::any_of(
       curve.keys, [&](const FbxKey& key) { return key.value != curve.keys.front().value; });
@@ -87,7 +83,7 @@ class FbxClipsReader {
     for (const FbxStack& stack : document_.stacks) {
       for (const FbxLayer& layer : stack.layers) {
         for (const auto& [target, node] : layer.by_target) {
-          if (is_camera_or_light(models_[target.first].kind)) continue;
+          if (models_[target.first].is_camera_or_light()) continue;
           if (std::ranges::any_of(layer.nodes[node].curves, moves)) is_joint[target.first] = true;
         }
       }

@@ -73,6 +73,7 @@ struct FbxModel {
   FbxLocal geometry;  // Of a mesh in the model; children do not inherit it.
   int joint = -1;     // In the clips' skeleton; -1 for none.
 
+  bool is_camera_or_light() const;
   // T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1, which has no shear.
   FbxLocal local(const FbxPlace& at) const;
   // What the pivots add to T if the model's rotation, `before` and `after` included, is this one.

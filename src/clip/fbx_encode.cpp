@@ -53,6 +53,11 @@ class FbxEncoder {
     return edits_.apply(tree_);
   }
 
+  std::string encode_still() {
+    drop_stacks();
+    return edits_.apply(tree_);
+  }
+
   std::string retime(std::span<const double> factors, double fps) {
     std::unordered_set<std::string> done;
     for (size_t s = 0; s < document_.stacks.size(); ++s) {
@@ -460,6 +465,10 @@ class FbxEncoder {
 std::string encode_fbx(const FbxDocument& document, std::span<const ClipEdit> edits,
                        EditMode mode) {
   return FbxEncoder(document).encode(edits, mode);
+}
+
+std::string encode_still_fbx(const FbxDocument& document) {
+  return FbxEncoder(document).encode_still();
 }
 
 std::string retime_fbx(const FbxDocument& document, std::span<const double> factors, double fps) {

@@ -15,6 +15,8 @@ namespace panache {
 
 // The file with the edits.
 std::string encode_fbx(const FbxDocument& document, std::span<const ClipEdit> edits, EditMode mode);
+// The file without its motions.
+std::string encode_still_fbx(const FbxDocument& document);
 // fbx_format.cpp: the same for a file of version 6, as a new one of version 7.
 std::string encode_fbx6(const FbxDocument& document, std::span<const ClipEdit> edits,
                         EditMode mode);

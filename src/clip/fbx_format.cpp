@@ -19,7 +19,7 @@ using Value = FbxNewValue;
 constexpr EulerOrder kNewOrder = {3, {2, 1, 0}};  // R = Rz Ry Rx.
 constexpr double kCentimetres = 100;              // In a metre.
 constexpr double kKnownRates[] = {30, 120, 100, 60, 50, 48, 0, 0, 0, 30 / 1.001, 25, 24, 1000};
-constexpr int kCustomRate = 14;
+constexpr int kOwnRate = 14;  // The file's time mode for any other.
 
 Vec3d xyz(const EulerAngles& zyx) { return {zyx[2], zyx[1], zyx[0]}; }
 
@@ -113,9 +113,9 @@ class FbxFormatter {
     list.add("P") = number_property("UnitScaleFactor", 1);
     list.add("P") = number_property("OriginalUnitScaleFactor", 1);
     const double rate = motions_.empty() ? 30 : 1 / motions_[0].clip->frame_time;
-    int32_t mode = kCustomRate;
+    int32_t mode = kOwnRate;
     for (size_t i = 0; i < std::size(kKnownRates); ++i) {
-      if (mode == kCustomRate && std::abs(kKnownRates[i] - rate) < 1e-6 * rate) {
+      if (mode == kOwnRate && std::abs(kKnownRates[i] - rate) < 1e-6 * rate) {
         mode = static_cast<int32_t>(i);
       }
     }

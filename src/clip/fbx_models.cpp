@@ -115,10 +115,6 @@ Result<FbxModel> read_model(const FbxTree& tree, const FbxNode& node, const FbxN
   return out;
 }
 
-bool is_camera_or_light(std::string_view kind) {
-  return kind == "Camera" || kind == "CameraSwitcher" || kind == "Light";
-}
-
 Result<void> read_settings(FbxDocument& document) {
   const FbxTree& tree = document.tree;
   FbxSettings& out = document.settings;
@@ -215,7 +211,7 @@ class FbxModelsReader {
                            "at most " + std::to_string(kFbxMaxParents) + " models below each other",
                            "more");
       }
-      if (is_camera_or_light(found_[i].kind) && children_[i].empty()) continue;
+      if (found_[i].is_camera_or_light() && children_[i].empty()) continue;
       FbxModel& model = document_.models.emplace_back(found_[i]);
       model.parent = parent;
       model.name = unique_name(model.file_name, taken);
@@ -248,6 +244,10 @@ Quatd FbxSettings::to_y_up() const {
   // The settings contradict each other.
   if (std::abs(dot(side, up)) > 0) side = {up.y, up.z, up.x};
   return conjugate(from_axes(side, up, cross(side, up)));
+}
+
+bool FbxModel::is_camera_or_light() const {
+  return kind == "Camera" || kind == "CameraSwitcher" || kind == "Light";
 }
 
 FbxLocal FbxModel::local(const FbxPlace& at) const {

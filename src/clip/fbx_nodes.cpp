@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clip/fbx_document.h"
+#include "clip/fbx_encode.h"
 
 namespace panache {
 namespace {
@@ -62,6 +63,12 @@ Result<FbxScene> read_fbx_scene(std::string bytes, const std::string& name) {
     }
   }
   return out;
+}
+
+Result<std::string> fbx_without_motions(std::string bytes, const std::string& name) {
+  const Result<FbxDocument> document = read_fbx_document(std::move(bytes), name, {});
+  if (!document) return document.error();
+  return document->is_version_6() ? document->tree.bytes() : encode_still_fbx(*document);
 }
 
 }  // namespace panache

@@ -41,5 +41,7 @@ struct FbxScene {
 
 // Rejects what parse_fbx() does, with the same messages.
 Result<FbxScene> read_fbx_scene(std::string bytes, const std::string& name);
+// The bytes of a file of version 7 without its motions; other versions stay as they are.
+Result<std::string> fbx_without_motions(std::string bytes, const std::string& name);
 
 }  // namespace panache

@@ -234,7 +234,7 @@ Error FbxTree::error(const FbxNode& at, const std::string& expected,
 
 Error FbxTree::error(const FbxNode& at, size_t which, const std::string& expected) const {
   const bool is_there = which < at.values.size();
-  return error(at, expected, is_there ? quoted(text(at, which)) : "nothing");
+  return error(at, expected, is_there ? panache::quoted(text(at, which)) : "nothing");
 }
 
 }  // namespace panache

@@ -181,7 +181,7 @@ TEST_F(Fbx, a_damaged_file_gets_a_message) {
     write("bad.fbx", good.substr(0, size));
     const Ran ran = run({"info", "bad.fbx"});
     EXPECT_EQ(ran.exit, 1) << size << ran.out;
-    EXPECT_TRUE(ran.err.starts_with("panache: bad.fbx: ")) << ran.err;
+    EXPECT_TRUE(ran.err.starts_with("panache: bad.fbx:")) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
   write("bad.fbx", "no such thing");
