@@ -186,7 +186,7 @@ class Creature {
 std::optional<Error> find_other_creature(const Skeleton& skeleton,
                                          std::span<const JointPositions> poses,
                                          const Mapping& mapping, const KnownJoints& known) {
-  if (known.contains(index(hips))) return std::nullopt;
+  if (!known.empty()) return std::nullopt;
   const std::string oddity = Creature(skeleton, poses, mapping).oddity();
   if (oddity.empty()) return std::nullopt;
   return Error{"no person: " + oddity +

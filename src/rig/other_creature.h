@@ -15,7 +15,7 @@ namespace panache {
 // Why a mapping is not a person's: its limbs are named as an animal's, all leave the body at one
 // place, more pairs of them stand beside the body, or at rest and in the motion the hands are on
 // the ground, or the legs bent without names that tell a person. `poses`: the rest pose, then poses
-// of the motion. `known` hips override this check.
+// of the motion. A map, of the hips or others, overrides this check.
 std::optional<Error> find_other_creature(const Skeleton& skeleton,
                                          std::span<const JointPositions> poses,
                                          const Mapping& mapping, const KnownJoints& known);
