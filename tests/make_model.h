@@ -89,9 +89,9 @@ inline void add_gate(TensorFile& file, float limit, float mean = 0) {
   file.tensors["gate.limit"] = constant_tensor(1, limit);
 }
 
-// Makes the pose heads of a model of make_model() read the activations of all layers: `added` is the
-// size of the weights of those that heads do not read otherwise. The gate, if any, is around `mean`,
-// at which the answers are those of the heads before.
+// Makes the pose heads of a model of make_model() read the activations of all layers: `added` is
+// the size of the weights of those that heads do not read otherwise. The gate, if any, is around
+// `mean`, at which the answers are those of the heads before.
 inline void reduce_heads(TensorFile& file, float added, float mean = 0, uint64_t seed = 7) {
   Random random(seed);
   const int hidden = static_cast<int>(file.tensors.at("pose.trunk.1.bias").values.size());

@@ -205,9 +205,9 @@ class OnnxWriter {
       if (!gate_.empty()) {
         reduced = graph_.add("Mul", "pose.reduce." + number + ".open", {reduced, gate_});
       }
-      terms.push_back(graph_.add(
-          "Mul", name + ".driven",
-          {dense(name, reduced), columns(name + ".strength", posture_, s, 1)}));
+      terms.push_back(
+          graph_.add("Mul", name + ".driven",
+                     {dense(name, reduced), columns(name + ".strength", posture_, s, 1)}));
     }
     return terms;
   }

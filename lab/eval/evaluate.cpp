@@ -62,11 +62,16 @@ Result<TestSet> prepare(const EvaluateOptions& options) {
   Evaluator evaluator = Evaluator::create(training->takes, test, options.seed);
   const double units = 1 / styled_inputs->front().rig.scale();
   PerformerJudges performers(training->takes, test);
-  return TestSet{*std::move(training),           *std::move(inputs),
-                 *std::move(styled_inputs),      *std::move(others),
-                 std::move(walker),              AlignedTakes(std::move(test)),
-                 std::move(evaluator),           std::move(performers),
-                 {styles.begin(), styles.end()}, units};
+  return TestSet{*std::move(training),
+                 *std::move(inputs),
+                 *std::move(styled_inputs),
+                 *std::move(others),
+                 std::move(walker),
+                 AlignedTakes(std::move(test)),
+                 std::move(evaluator),
+                 std::move(performers),
+                 {styles.begin(), styles.end()},
+                 units};
 }
 
 Result<std::vector<NamedModel>> find_models(const EvaluateOptions& options,

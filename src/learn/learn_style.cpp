@@ -85,13 +85,16 @@ std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairing
   return instants;
 }
 
-// Whether the bodies of two takes agree within a millimetre for as long as the styled one lasts.
+// Whether the bodies of two takes agree within a millimetre and half a degree for as long as the
+// styled one lasts. A head or a hand can turn where it is.
 bool same_motion(const Take& neutral, const Take& styled) {
-  constexpr float kSame = 0.001f;  // Metres.
+  constexpr float kSame = 0.001f, kSameTurn = 0.01f;  // Metres, radians.
   if (neutral.frames() < styled.frames()) return false;
   for (int f = 0; f < styled.frames(); ++f) {
     for (size_t j = 0; j < kHumanJoints; ++j) {
       if (length(neutral.body[f][j] - styled.body[f][j]) > kSame) return false;
+      const Quat turn = conjugate(neutral.rotations[f][j]) * styled.rotations[f][j];
+      if (length(log_rotation(turn)) > kSameTurn) return false;
     }
   }
   return true;

@@ -74,7 +74,8 @@ int next_set(const std::vector<ManifestRow>& rows) {
 }
 
 Result<std::vector<StyleName>> read_style_names(const std::string& path) {
-  Result<CsvTable> table = read_csv(path, {"name", "from", "description"}, {"group", "words", "side"});
+  Result<CsvTable> table =
+      read_csv(path, {"name", "from", "description"}, {"group", "words", "side"});
   if (!table) return table.error();
   std::vector<StyleName> names;
   std::set<std::string> known, taken;

@@ -26,10 +26,9 @@ constexpr size_t kMaxNameBytes = 60;
 
 // Names of a style's tensors in a style file.
 constexpr std::array kBuiltInTensors = {
-    "pose.reduce.weight",  "pose.reduce.bias",  "pose.reduce.scale",
-    "pose.head.weight",    "pose.head.bias",    "pose.head.scale",
-    "timing.head.weight",  "timing.head.bias",  "timing.head.scale",
-    "contact.head.weight", "contact.head.bias", "contact.head.scale"};
+    "pose.reduce.weight", "pose.reduce.bias",    "pose.reduce.scale",  "pose.head.weight",
+    "pose.head.bias",     "pose.head.scale",     "timing.head.weight", "timing.head.bias",
+    "timing.head.scale",  "contact.head.weight", "contact.head.bias",  "contact.head.scale"};
 constexpr std::array kLearntTensors = {"head.weight", "head.bias",   "head.scale",
                                        "mean",        "gate.weight", "gate.bias",
                                        "gate.scale",  "gate.worth",  "gate.rest"};

@@ -104,15 +104,15 @@ struct GuidanceSettings {
 
 // How the pose heads are fitted in closed form once the trunk is trained: lab/train/fit_heads.h.
 struct HeadSettings {
-  int64_t rank = 0;          // Combinations of activations that a head reads; 0: heads are not fitted.
-  double penalty = 0.5;      // Of a squared weight, in variances of a standardised activation.
-  int max_samples = 1500;    // Of a style, evenly spread,
-  int copies = 4;            // each once as it is and in so many disturbed copies.
-  int sequences = 200;       // Of motion without styles, one second each,
-  double guided = 0.5;       // and its weight beside the style's own windows,
-  double alike = 2;          // where it is further from them than so many times their own extent.
-  double gain = 0.5;         // Share of the lost variation that is made up for in torso, arms and bob,
-  double max_gain = 1.5;     // at most so much.
+  int64_t rank = 0;      // Combinations of activations that a head reads; 0: heads are not fitted.
+  double penalty = 0.5;  // Of a squared weight, in variances of a standardised activation.
+  int max_samples = 1500;  // Of a style, evenly spread,
+  int copies = 4;          // each once as it is and in so many disturbed copies.
+  int sequences = 200;     // Of motion without styles, one second each,
+  double guided = 0.5;     // and its weight beside the style's own windows,
+  double alike = 2;        // where it is further from them than so many times their own extent.
+  double gain = 0.5;      // Share of the lost variation that is made up for in torso, arms and bob,
+  double max_gain = 1.5;  // at most so much.
 };
 
 struct TrainingSettings {
@@ -126,7 +126,7 @@ struct TrainingSettings {
   float positions = 0;             // and of the loss on joint positions: PositionLoss.
   GuidanceSettings guidance = {};  // If there is motion without styles.
   HeadSettings heads = {};
-  int64_t predictor_steps = 0;     // Training steps of the input predictor; 0: the model has none.
+  int64_t predictor_steps = 0;  // Training steps of the input predictor; 0: the model has none.
 };
 
 }  // namespace panache

@@ -133,10 +133,11 @@ TEST_F(RetargetVerb, bad_wishes_are_rejected) {
       "'/' at its end)");
   expect_rejected({"retarget", "walk.bvh", "--onto", "none.glb", "-o", "out.glb"}, 1,
                   "none.glb: cannot be read: No such file or directory");
-  expect_rejected({"retarget", "hero.glb", "--onto", "walk.bvh", "-o", "out.bvh"}, 1,
-                  "hero.glb: the animation has keys for upper joints of the body alone, to lie over "
-                  "another: joints without keys get none\npanache: out.bvh: takes one motion, found 2 "
-                  "motions; --clip NAME picks one");
+  expect_rejected(
+      {"retarget", "hero.glb", "--onto", "walk.bvh", "-o", "out.bvh"}, 1,
+      "hero.glb: the animation has keys for upper joints of the body alone, to lie over "
+      "another: joints without keys get none\npanache: out.bvh: takes one motion, found 2 "
+      "motions; --clip NAME picks one");
   expect_rejected({"retarget", "walk.bvh", "--onto", "hero.glb", "--to", "amc", "-o", "out/"}, 2,
                   "--to: expected bvh, glb, vrma or npz, found 'amc'");
   write("dog.bvh",

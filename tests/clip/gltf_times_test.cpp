@@ -127,7 +127,8 @@ TEST(GltfTimes, two_keys_at_one_time_are_read_one_after_the_other) {
   ASSERT_TRUE(doubled.ok()) << doubled.error().message;
   EXPECT_EQ((*doubled)->notes().size(), 1u);
   const Clip& clip = (*doubled)->clip(0);
-  const auto joint = static_cast<size_t>(test::find_joint_named(clip, parts.json["nodes"][0]["name"]));
+  const auto joint =
+      static_cast<size_t>(test::find_joint_named(clip, parts.json["nodes"][0]["name"]));
   for (int f = 0; f < clip.frames; ++f) {
     EXPECT_NEAR(clip.pose(f).translations[joint].x, f * clip.frame_time, 1e-4) << f;
   }

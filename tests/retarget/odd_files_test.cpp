@@ -45,7 +45,8 @@ TEST(OddFiles, clothes_and_copied_joints_stay_on_the_body) {
   const Clip dressed = odd_clip("clothes-own-armature.glb");
   std::vector<std::pair<int, int>> pairs;
   for (const Joint& joint : plain_walk().skeleton.joints) {
-    pairs.emplace_back(find_joint_named(dressed, joint.name), find_joint_named(dressed, joint.name, 1));
+    pairs.emplace_back(find_joint_named(dressed, joint.name),
+                       find_joint_named(dressed, joint.name, 1));
   }
   const Clip worn = put(neutral_walk(1), rest_of(dressed));
   EXPECT_GT(length(worn.pose(29).translations[pairs[0].first] -
@@ -56,7 +57,8 @@ TEST(OddFiles, clothes_and_copied_joints_stay_on_the_body) {
   const Clip copied = with_copied_leg(plain_walk());
   pairs.clear();
   for (const char* name : {"leftUpperLeg", "leftLowerLeg", "leftFoot"}) {
-    pairs.emplace_back(find_joint_named(copied, name), find_joint_named(copied, std::string(name) + "D"));
+    pairs.emplace_back(find_joint_named(copied, name),
+                       find_joint_named(copied, std::string(name) + "D"));
   }
   for (const Clip& character : {rest_of(copied), copied}) {
     expect_together(put(neutral_walk(1), character), pairs);
@@ -126,7 +128,8 @@ TEST(OddFiles, feet_that_hang_on_the_root_follow_their_shins) {
     for (const std::vector<Vec3>& at : world_positions(walk)) {
       for (const char* side : {"left", "right"}) {
         const Vec3 shin = at[find_joint_named(walk, std::string(side) + "LowerLeg")];
-        ASSERT_NEAR(length(at[find_joint_named(walk, std::string(side) + "Foot")] - shin), 0.4f, kSame);
+        ASSERT_NEAR(length(at[find_joint_named(walk, std::string(side) + "Foot")] - shin), 0.4f,
+                    kSame);
       }
     }
   }

@@ -319,8 +319,8 @@ TEST_F(GestureTest, those_of_the_shipped_model_jump_nowhere) {
         for (size_t j = 0; j < kHumanJoints; ++j)
           most = std::max(most, length(with[f][j] - plain[f][j]));
       }
-      // m/s^2; the styled walks themselves reach 80 to 100, an arm that meets the body 390. A joint that is 20 cm elsewhere in the
-      // next frame has 720.
+      // m/s^2; the styled walks themselves reach 80 to 100, an arm that meets the body 390. A joint
+      // that is 20 cm elsewhere in the next frame has 720.
       EXPECT_LT(most, 450) << model_->styles()[static_cast<size_t>(style)].name << " " << k;
       EXPECT_GT(most, 0);
     }

@@ -9,9 +9,9 @@ namespace panache {
 namespace {
 
 constexpr float kRateSeconds = 0.05f;  // Time constant of the tempo.
-// A change may move joints as fast as they move themselves plus a little, so that a standing body is
-// not frozen; m/s. Beyond, it is smoothed at most kSlowest times as long. A share of 0.2 halves the
-// movement of styles on walks that the model does not know.
+// A change may move joints as fast as they move themselves plus a little, so that a standing body
+// is not frozen; m/s. Beyond, it is smoothed at most kSlowest times as long. A share of 0.2 halves
+// the movement of styles on walks that the model does not know.
 constexpr float kFreeShare = 1, kStillSpeed = 0.1f, kSlowest = 11;
 constexpr float kSpeedSeconds = 0.1f;  // Over which speeds are averaged.
 // This applies while the gate is closed by at least this much, on average over this time. While it

@@ -20,7 +20,8 @@ Take bent(const std::string& style, float bend, bool test = false) {
   return take;
 }
 
-std::vector<StyleArrival> measure(const std::vector<Take>& training, const std::vector<Take>& test) {
+std::vector<StyleArrival> measure(const std::vector<Take>& training,
+                                  const std::vector<Take>& test) {
   const std::vector<TestInput> inputs = {test::swinging_input(kFrames, 0.3f)};
   const WalkSet walks(training, test, inputs, inputs, inputs);
   return *walks.measure(test::ToySystem("toy", {"bowed"}));
@@ -35,9 +36,10 @@ TEST(Arrival, is_the_share_of_the_change_of_real_takes) {
   for (const ArrivedShares& shares : full[0].made) EXPECT_NEAR(shares.movement[kLean], 1, 0.02);
   EXPECT_NEAR(full[0].real.movement[kLean], 1, 0.02);
   // Real takes bend twice as far, or the other way.
-  EXPECT_NEAR(measure({bent("neutral", 0), bent("bowed", 1.0f)}, {})[0].made[0].movement[kLean], 0.5,
-              0.05);
-  EXPECT_LT(measure({bent("neutral", 0), bent("bowed", -0.5f)}, {})[0].made[0].movement[kLean], -0.8);
+  EXPECT_NEAR(measure({bent("neutral", 0), bent("bowed", 1.0f)}, {})[0].made[0].movement[kLean],
+              0.5, 0.05);
+  EXPECT_LT(measure({bent("neutral", 0), bent("bowed", -0.5f)}, {})[0].made[0].movement[kLean],
+            -0.8);
 }
 
 TEST(Arrival, what_real_takes_do_not_show_does_not_count) {
