@@ -211,7 +211,8 @@ std::vector<std::string> movements_of(const std::vector<GesturePose>& points) {
   add_hips(points, all);
   add_torso_and_head(points, all);
   add_arms(points, all);
-  std::ranges::stable_sort(all, std::ranges::greater{}, &Movement::size);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Movement& a, const Movement& b) { return a.size > b.size; });
   std::vector<std::string> texts;
   for (const Movement& movement : all) {
     if (texts.empty() || movement.size >= 1) texts.push_back(movement.text);

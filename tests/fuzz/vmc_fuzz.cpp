@@ -70,7 +70,10 @@ class Sender {
   explicit Sender(FuzzedDataProvider& data)
       : is_styled_(data.ConsumeBool()),
         strengths_{is_styled_ ? 1.0f : 0.0f, 0},
-        character_({fuzz::small_model(), options(data), -1, &recording_}) {}
+        character_({.model = fuzz::small_model(),
+                    .options = options(data),
+                    .removed = -1,
+                    .recording = &recording_}) {}
 
   // `odd`: its bones may be anything.
   void send(std::vector<char> bytes, double now, bool odd) {
