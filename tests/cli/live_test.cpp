@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
@@ -91,6 +92,7 @@ class LiveVerb : public ProgramTest {
                   const std::string& host = "") {
     arguments.insert(arguments.begin(), {"live", "--vmc-in", host + std::to_string(in_),
                                          "--vmc-out", "127.0.0.1:" + sink_.port_name()});
+    std::filesystem::remove(path("live.err"));  // Of a relay before.
     live_ = start("live", arguments, model);
     for (int i = 0; i < kPatience && !exists("live.err"); ++i) nap(5);
     for (int i = 0; i < kPatience && read("live.err").find("relaying") == std::string::npos; ++i)
@@ -248,6 +250,7 @@ TEST_F(LiveVerb, says_once_how_to_connect_and_once_that_nothing_comes_any_more) 
     for (size_t at = 0; (at = err.find(text, at)) != err.npos; ++at) ++found;
     return found;
   };
+  write("walk.bvh", format_bvh(walking_clip(60, 60)));
   start_live({});
   const std::string hint = "no motion comes in yet: let the tracker send VMC";
   for (int i = 0; i < kPatience && count(hint) == 0; ++i) nap(5);
