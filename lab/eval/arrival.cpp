@@ -14,6 +14,8 @@ namespace panache {
 namespace {
 
 constexpr double kVisibleSide = 0.015;  // Metres: smaller ones are not seen.
+// Of the side of training takes, in test takes: styles with less of it have theirs by chance.
+constexpr double kOwnSide = 0.5;
 constexpr double kInStep = 0.3;         // Steps a second beyond the real takes' range.
 
 bool walks(const Take& take) {
@@ -115,7 +117,7 @@ ArrivedShares shares_of(const Movement& real, const SideVector& side, const Move
   for (size_t t = 0; t < real.size(); ++t) {
     if (std::abs(real[t]) > kMovementTraits[t].visible) out.movement[t] = change[t] / real[t];
   }
-  if (side_size(side) > kVisibleSide) out.side = dot_of(side_change, side) / dot_of(side, side);
+  if (side_size(side) > kVisibleSide && !side_change.empty()) out.side = dot_of(side_change, side) / dot_of(side, side);
   return out;
 }
 
@@ -258,7 +260,7 @@ ArrivalSummary summarize(const std::vector<StyleArrival>& styles,
       half.push_back(made.movement[t] < 0.5);
       wrong.push_back(made.movement[t] < 0);
     }
-    if (!std::isnan(made.side)) sides.push_back(made.side);
+    if (style.real.side >= kOwnSide && !std::isnan(made.side)) sides.push_back(made.side);
     out.in_step += made.steps >= style.slowest - kInStep && made.steps <= style.fastest + kInStep;
   }
   out.traits = all.size();

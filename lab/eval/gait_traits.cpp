@@ -29,7 +29,7 @@ double deviation(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-// The strongest frequency, Hz.
+// The strongest frequency of a walk's strides, Hz.
 double main_frequency(const std::vector<double>& values) {
   const double middle = mean(values);
   double best = 0, strongest = -1;
@@ -84,15 +84,25 @@ Movement movement_of(const Take& take) {
 }
 
 SideVector side_of(const Take& take) {
+  using enum HumanJoint;
   if (take.frames() < kMinFrames) return {};
-  const int first = kEased, count = take.frames() - first;
+  const int first = kEased;
+  std::vector<double> strides;
+  for (int f = first; f < take.frames(); ++f) {
+    strides.push_back(double{take.body[f][index(left_foot)].z - take.body[f][index(right_foot)].z});
+  }
+  // Whole strides: half a stride more and one foot is ahead on average.
+  const double stride = kTakeRate / main_frequency(strides);
+  const double whole = std::floor(static_cast<double>(strides.size()) / stride);
+  const int count = whole < 1 ? static_cast<int>(strides.size()) : static_cast<int>(whole * stride);
+  const int end = first + count;
   HumanPositions middle{}, spread{};
   const auto place = [&](int f, int j) { return take.body[f][j] - take.body[f][0]; };
   for (int j = 0; j < kHumanJoints; ++j) {
-    for (int f = first; f < take.frames(); ++f) {
+    for (int f = first; f < end; ++f) {
       middle[j] += place(f, j) * (1.0f / static_cast<float>(count));
     }
-    for (int f = first; f < take.frames(); ++f) {
+    for (int f = first; f < end; ++f) {
       const Vec3 off = place(f, j) - middle[j];
       spread[j] +=
           Vec3{off.x * off.x, off.y * off.y, off.z * off.z} * (1.0f / static_cast<float>(count));

@@ -32,9 +32,9 @@ using Movement = std::array<double, kMovementTraits.size()>;
 // of 0.85 m. NaN throughout for takes of less than a second.
 Movement movement_of(const Take& take);
 
-// The difference between a walk and its mirror image, halved: of each joint's mean position about
-// the hips (heading frame), then of its deviations, metres. [2][kHumanJoints] Empty for takes of
-// less than a second.
+// The difference between a walk and its mirror image, halved, over whole strides: of each joint's
+// mean position about the hips (heading frame), then of its deviations, metres. [2][kHumanJoints]
+// Empty for takes of less than a second.
 using SideVector = std::vector<Vec3>;
 SideVector side_of(const Take& take);
 // Mean length over the joints' positions, metres; 0 for an empty one.

@@ -83,6 +83,8 @@ bool JointName::has(std::string_view word) const {
 }
 
 JointName parse_joint_name(std::string_view name) {
+  constexpr size_t kLongest = 100;  // Letters: of a longer name, which no tool makes, the last.
+  if (name.size() > kLongest) name.remove_prefix(name.size() - kLongest);
   const size_t space = name.find_last_of(":|");
   if (space != std::string_view::npos) name.remove_prefix(space + 1);
   JointName out;

@@ -18,7 +18,8 @@ struct JointName {
 };
 
 // Splits `name` at its last colon or bar (the part before is a namespace), then at everything that
-// is not a letter or digit, between lower and upper case and between letters and digits.
+// is not a letter or digit, between lower and upper case and between letters and digits. Of a name
+// of more than 100 letters, the last 100 count.
 JointName parse_joint_name(std::string_view name);
 
 // The words without a trailing number, which counts the pieces of a limb ("forearm", "001").

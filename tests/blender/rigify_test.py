@@ -37,7 +37,7 @@ assert not any(name.startswith(('ORG-', 'DEF-', 'MCH-')) for name in keyed), key
 # What the library makes of the same joints.
 from panache import sampling, settings  # noqa: E402
 sampled = sampling.Sampled(bpy.context, rig, walk)
-styled = sampled.stylize(settings.model(), {'old': 1.0}, settings.shape(rig), 'steps')
+styled = sampled.stylize(settings.model(), {'old': 1.0}, settings.options(rig))
 worst = {'feet': (0, ''), 'rest': (0, '')}
 for i in range(len(styled)):
     places = sampled.world_pose(styled, i)

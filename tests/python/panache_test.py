@@ -254,7 +254,7 @@ def test_a_style_is_learnt_from_one_clip(model, walk):
     alone = panache.learn(model, styled, 'mine')
     assert alone.model.styles == model.styles + ['mine']
     assert alone.people >= 5 and 0 < alone.certainty < 1
-    pair = panache.learn(model, [(walk, walk)], 'mine')
+    pair = panache.learn(model, [(walk, styled)], 'mine')
     assert pair.people is None and pair.certainty is None
     assert 'neutral' not in panache.shipped_models()
 
@@ -369,7 +369,8 @@ def test_mistakes_with_types_and_numbers_are_sentences_too(model, walk, walk_fil
         rejection(panache.learn, model, pairs, 'mine')
     assert rejection(panache.learn, model, [(walk, walk)], 5) == 'name: expected a string, found int'
     rejection(panache.learn, model, 5, 'mine')
-    assert panache.learn(model, iter([(walk, walk)]), 'mine').model.styles == [*model.styles, 'mine']
+    styled = panache.stylize(model, walk, {'old': 1})
+    assert panache.learn(model, iter([(walk, styled)]), 'mine').model.styles == [*model.styles, 'mine']
     file_skeleton = panache.MotionFile(walk_file).skeleton
     assert rejection(file_skeleton, 'walk') == "clip: expected a whole number, found 'walk'"
     for styles in (['old'], 'old', 1, None):

@@ -125,7 +125,10 @@ export class Panache {
     });
   }
 
-  createSkeleton(joints, options = {}) { return new Skeleton(this, joints, options); }
+  createSkeleton(joints, options = {}) {
+    inUse(this.#live, 'Panache');
+    return new Skeleton(this, joints, options);
+  }
   createCharacter(skeleton, options = {}) { return new Character(this, skeleton, options); }
   createRemover(bytes) { return new Remover(this, bytes); }
   stylizeClip(skeleton, clip, strengths, options = {}) {

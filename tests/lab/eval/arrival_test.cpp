@@ -55,7 +55,8 @@ TEST(Arrival, is_summed_up_over_all_that_counts) {
     ArrivedShares& own = styles[s].made[0];
     own.movement.fill(kNotMeasured);
     own.movement[kLean] = shares[s];
-    own.side = s == 0 ? 0.8 : kNotMeasured;
+    own.side = s == 0 ? 0.8 : 0.1;
+    styles[s].real.side = s == 0 ? 0.9 : 0.4;  // Too little: theirs by chance.
     own.steps = 1 + static_cast<double>(s);
     styles[s].slowest = 1, styles[s].fastest = 2;
   }

@@ -86,5 +86,14 @@ TEST(Side, of_the_mirror_image_is_the_opposite_and_of_a_symmetric_body_nothing) 
   EXPECT_NEAR(side_size(side_of(take_of([](double, HumanPositions&) {}))), 0, 1e-6);
 }
 
+TEST(Side, is_of_whole_strides) {
+  Take take = take_of([](double t, HumanPositions& body) {
+    body[index(left_foot)].z = 0.4f * wave(t, 1);
+    body[index(right_foot)].z = -0.4f * wave(t, 1);
+  });
+  take.body.resize(static_cast<size_t>((0.4 + 2.5) * kTakeRate));
+  EXPECT_NEAR(length(side_of(take)[index(left_foot)]), 0, 0.01);
+}
+
 }  // namespace
 }  // namespace panache

@@ -5,7 +5,7 @@ import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { gunzipSync } from 'node:zlib';
 
-import { frames, nativeHashes, pageFolder, start, styledParts, unfold } from './browser.mjs';
+import { frames, nativeHashes, pageFolder, setStyle, start, styledParts } from './browser.mjs';
 
 let site;
 before(async () => (site = await start()));
@@ -109,7 +109,7 @@ test('the first load is under 1.38 MB compressed, model included', async () => {
 
 test('the page draws on while a slider is dragged', async () => {
   const tab = await site.open();
-  await unfold(tab);
+  await setStyle(tab, 'old', '0');
   await tab.locator('#style-old').scrollIntoViewIfNeeded();  // Outside the window nothing is dragged.
   const box = await tab.locator('#style-old').boundingBox();
   const moveTo = (share) => tab.mouse.move(box.x + 20 + share * (box.width - 40),
