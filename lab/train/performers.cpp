@@ -13,21 +13,19 @@
 namespace panache {
 namespace {
 
-constexpr size_t kFewestPerformers = 3;       // With neutral takes, to measure how persons differ.
-constexpr size_t kTempo = StyleDelta::kSize;  // After the pose outputs: the log rate.
+constexpr size_t kFewestPerformers = 3;  // With neutral takes, to measure how persons differ.
 // A median of few styles has a larger error than their mean, and styles of one performer are
 // correlated: the share of their variance that remains for any number of styles.
 constexpr float kMedian = 1.5f, kAlike = 0.25f;
 
-using Numbers = std::array<float, StyleDelta::kSize + 1>;
+using Numbers = std::array<float, StyleDelta::kSize>;
 
 struct Mean {
   Numbers sum{};
   float count = 0;
 
-  void add(std::span<const float> change, float log_rate) {
+  void add(std::span<const float> change) {
     for (size_t n = 0; n < change.size(); ++n) sum[n] += change[n];
-    sum[kTempo] += log_rate;
     ++count;
   }
   Numbers mean() const {
@@ -78,11 +76,11 @@ Squares differences_of_persons(const std::vector<Take>& takes, const Shared& act
       const int frames = static_cast<int>(pairing.rates.size());
       for (int i = kTrimFrames; i < frames - kTrimFrames; ++i) {
         const float rate = believable_rate(pairing.rates[i]);
-        std::array<float, StyleDelta::kSize> change;
+        Numbers change;
         pack(change_between(compared[pairing.styled], pairing.first + i, compared[pairing.neutral],
                             pairing.neutral_frames[i], rate),
              change);
-        mean.add(change, std::log(rate));
+        mean.add(change);
       }
     }
     if (mean.count > 0) squares.add(mean.mean());
@@ -127,7 +125,7 @@ void take_off_performers(const std::vector<Take>& takes, SampleSet& set) {
     compared[action] = {row.manifest, row.content};
     Mean& mean = is_foreign(sample) ? foreign[action][sample.style]
                                     : own[compared[action]][{row.set, sample.style}];
-    mean.add(change, sample.log_rate);
+    mean.add(change);
   }
   std::map<Action, Numbers> taken_off;
   for (const auto& [action, styles] : foreign) {
@@ -145,10 +143,9 @@ void take_off_performers(const std::vector<Take>& takes, SampleSet& set) {
     const ManifestRow& row = takes[sample.styled].row;
     const auto shared = taken_off.find({row.set, row.content});
     if (shared == taken_off.end()) continue;
-    const Numbers& numbers = shared->second;
     const auto target = set.target(i).first<StyleDelta::kSize>();
     StyleDelta change = unpack(target);
-    const StyleDelta persons = unpack(std::span(numbers).first<StyleDelta::kSize>());
+    const StyleDelta persons = unpack(shared->second);
     for (int j = 0; j < kHumanJoints; ++j) {
       change.rotations[j] = log_rotation(exp_rotation(change.rotations[j]) *
                                          conjugate(exp_rotation(persons.rotations[j])));

@@ -163,8 +163,9 @@ int fill_clip(const GltfDocument& document, GltfAnimation& animation,
   for (Joint& joint : clip.skeleton.joints) joint.unkeyed = true;
   for (const GltfChannel& channel : animation.channels) {
     const bool places = channel.path == GltfPath::rotation || channel.path == GltfPath::translation;
+    if (!places || channel.node < 0) continue;
     const int joint = document.nodes[channel.node].joint;
-    if (places && joint >= 0) clip.skeleton.joints[joint].unkeyed = false;
+    if (joint >= 0) clip.skeleton.joints[joint].unkeyed = false;
   }
   for (size_t j = 0; j < clip.joints(); ++j) {
     Joint& joint = clip.skeleton.joints[j];
