@@ -63,7 +63,7 @@ Axis axis_of(const Course& course) {
                           std::abs(course.peak.z)};
   const int index = static_cast<int>(std::max_element(sizes, sizes + 3) - sizes);
   const float numbers[3] = {course.peak.x, course.peak.y, course.peak.z};
-  const auto [small, large] = std::minmax(course.most[index], -course.least[index]);
+  const auto [small, large] = std::minmax({course.most[index], -course.least[index]});
   const bool both = small > kAlike * large;
   return {index, both ? course.most_first[index] : numbers[index] > 0, both};
 }
