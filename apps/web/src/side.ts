@@ -19,7 +19,7 @@ export class SideSwitch {
     const phrase = side!;
     this.#captured = button(phrase, () => choose(1), { title: 'As captured' });
     this.#mirrored = button(otherSide(phrase), () => choose(-1), { title: 'Mirrored' });
-    this.element = element('p', { class: 'side', role: 'group', 'aria-label': `Side of ${name}` },
+    this.element = element('p', { class: 'sides', role: 'group', 'aria-label': `Side of ${name}` },
       this.#captured, this.#mirrored);
   }
 
