@@ -112,8 +112,8 @@ export async function start() {
     if (isFirefox) await tab.addInitScript(keepDownloads);
     if (route) await tab.route(...route);
     tab.on('console', (message) => {
-      // Chromium warns of its own slowness when WebGL runs in software.
-      const ours = !/GL Driver Message|software WebGL/.test(message.text());
+      // Chromium warns of its own slowness when WebGL runs in software, and when tests read pixels.
+      const ours = !/GL Driver Message|software WebGL|willReadFrequently/.test(message.text());
       if (ours && !fails && ['error', 'warning'].includes(message.type())) complaints.push(message.text());
     });
     tab.on('pageerror', (error) => fails || complaints.push(error.message));
