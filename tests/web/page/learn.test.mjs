@@ -130,7 +130,7 @@ test('what is wrong with clips, names and files is said with the library\'s sent
   await tab.waitForFunction(() => document.querySelector('[data-slot=styled] .what').textContent
     .startsWith('walk.glb'));
   await learn('other');
-  assert.match(await error(), /^walk\.bvh and walk\.glb: have different skeletons \(/);
+  assert.match(await error(), /^walk\.bvh and walk\.glb: are the same motion, /);
   writeFileSync(at('cut.bvh'), readFileSync(at('walk.bvh')).subarray(0, 400));
   await drop(tab, '[data-slot=styled]', [file('cut.bvh')]);
   assert.match(await error(), /^cut\.bvh:\d+:\d+: /);
