@@ -229,6 +229,7 @@ TEST_F(LiveVerb, an_old_walk_leans_forward_even_when_each_bone_comes_alone) {
 }
 
 TEST_F(LiveVerb, a_mirrored_walk_swings_the_other_leg) {
+  write("walk.bvh", format_bvh(walking_clip(60, 60)));
   start_live({"--mirror"});
   play(1.5);
   const std::map<std::string, Bone> in = bones_of(sent_.back()), out = bones_of(got_.back());
