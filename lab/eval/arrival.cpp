@@ -16,7 +16,7 @@ namespace {
 constexpr double kVisibleSide = 0.015;  // Metres: smaller ones are not seen.
 // Of the side of training takes, in test takes: styles with less of it have theirs by chance.
 constexpr double kOwnSide = 0.5;
-constexpr double kInStep = 0.3;         // Steps a second beyond the real takes' range.
+constexpr double kInStep = 0.3;  // Steps a second beyond the real takes' range.
 
 bool walks(const Take& take) {
   return take.row.content == kWalk && take.frames() >= static_cast<int>(kTakeRate);
@@ -117,7 +117,8 @@ ArrivedShares shares_of(const Movement& real, const SideVector& side, const Move
   for (size_t t = 0; t < real.size(); ++t) {
     if (std::abs(real[t]) > kMovementTraits[t].visible) out.movement[t] = change[t] / real[t];
   }
-  if (side_size(side) > kVisibleSide && !side_change.empty()) out.side = dot_of(side_change, side) / dot_of(side, side);
+  if (side_size(side) > kVisibleSide && !side_change.empty())
+    out.side = dot_of(side_change, side) / dot_of(side, side);
   return out;
 }
 

@@ -69,11 +69,11 @@ class WalkSet {
 struct ArrivalSummary {
   size_t traits = 0;
   double median = kNotMeasured, below_half = kNotMeasured, wrong_sign = kNotMeasured;
-  Movement by_trait;           // Medians.
+  Movement by_trait;  // Medians.
   // Mean over the styles that have one, of which test takes show at least half.
   double side = kNotMeasured;
-  size_t sided = 0;            // Number of these.
-  size_t in_step = 0;          // Styles whose steps a second are within 0.3 of real takes' range.
+  size_t sided = 0;    // Number of these.
+  size_t in_step = 0;  // Styles whose steps a second are within 0.3 of real takes' range.
 };
 ArrivalSummary summarize(const std::vector<StyleArrival>& styles,
                          const ArrivedShares& (*shares)(const StyleArrival&));
