@@ -232,7 +232,15 @@ TEST_F(LiveVerb, a_mirrored_walk_swings_the_other_leg) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
   start_live({"--mirror"});
   play(1.5);
-  const std::map<std::string, Bone> in = bones_of(sent_.back()), out = bones_of(got_.back());
+  // A frame takes several datagrams.
+  const auto last_of = [](const std::vector<Bytes>& datagrams) {
+    std::map<std::string, Bone> last;
+    for (const Bytes& datagram : datagrams) {
+      for (const auto& [name, bone] : bones_of(datagram)) last[name] = bone;
+    }
+    return last;
+  };
+  const std::map<std::string, Bone> in = last_of(sent_), out = last_of(got_);
   for (const std::string bone : {"UpperLeg", "LowerArm", "Foot"}) {
     for (const auto& [side, other] : {std::pair("Left", "Right"), std::pair("Right", "Left")}) {
       const Quat q = in.at(side + bone).rotation, seen = out.at(other + bone).rotation;
