@@ -121,7 +121,7 @@ test('the style is saved as a file that the program takes, and opens again by dr
 
 test('what is wrong with clips, names and files is said with the library\'s sentence', async () => {
   panache('convert', 'walk.bvh', '-o', 'walk.glb');
-  panache('walker', '-o', 'short.bvh', '--seconds', '0.8');
+  panache('walker', '-o', 'short.bvh', '--seconds', '0.8', '--speed', '1.6');
   await learn('old');
   assert.match(await error(), /^the model: has a style 'old' already; /);
   await learn('a=b');
