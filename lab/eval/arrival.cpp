@@ -131,7 +131,7 @@ WalkSet::WalkSet(const std::vector<Take>& training, const std::vector<Take>& tes
   const auto sort = [&](const Take& take, bool is_test) {
     if (!walks(take)) return;
     if (take.row.neutral) {
-      neutral_.push_back(&take);
+      if (!is_test) neutral_.push_back(&take);  // Those of the test split are inputs.
       return;
     }
     Real& real = styles.try_emplace(take.row.style, Real{take.row.style, take.row.set, {}, {}})
@@ -150,6 +150,7 @@ WalkSet::WalkSet(const std::vector<Take>& training, const std::vector<Take>& tes
     }
   };
   pick(neutral, own_);
+  for (const TestInput* input : own_) neutral_.push_back(&input->take);
   pick(others, others_);
   pick(walker, walker_);
 }
