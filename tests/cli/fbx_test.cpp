@@ -1,4 +1,4 @@
-// FBX files, which come in through Assimp and go on as GLB.
+// FBX files: as they are, and as GLB with the meshes that Assimp reads.
 
 #include <csignal>
 
@@ -6,6 +6,7 @@
 
 #include "cli/fbx_program_test.h"
 #include "cli/same_positions.h"
+#include "clip/bvh.h"
 #include "clip/make_gltf.h"
 
 namespace panache::test {
@@ -124,14 +125,43 @@ TEST_F(Fbx, info_shows_it) {
       << ran.out;
 }
 
-TEST_F(Fbx, stylize_gives_a_glb_with_both_motions) {
+TEST_F(Fbx, stylize_gives_a_file_of_its_kind_or_a_glb_with_both_motions) {
   write("walk.fbx", format_fbx(walking_clip(40)));
   const Ran ran = run({"stylize", "walk.fbx", "--style", "old=1", "-o", "out/"});
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_EQ(entries("out"), std::vector<std::string>{"walk.glb"});
-  const auto file = read_motion(path("out/walk.glb"));
-  ASSERT_TRUE(file.ok()) << file.error().message;
-  EXPECT_EQ((*file)->clip_names(), (std::vector<std::string>{"Take 001 (old 1)", "Take 001"}));
+  EXPECT_EQ(run({"stylize", "walk.fbx", "--style", "old=1", "-o", "out/walk.glb"}).exit, 0);
+  EXPECT_EQ(entries("out"), (std::vector<std::string>{"walk.fbx", "walk.glb"}));
+  const auto fbx = read_motion(path("out/walk.fbx")), glb = read_motion(path("out/walk.glb"));
+  ASSERT_TRUE(fbx.ok()) << fbx.error().message;
+  ASSERT_TRUE(glb.ok()) << glb.error().message;
+  const std::vector<std::string> expected = {"Take 001 (old 1)", "Take 001"};
+  EXPECT_EQ((*fbx)->clip_names(), expected);
+  EXPECT_EQ((*glb)->clip_names(), expected);
+  // Networks multiply rounding by about ten.
+  expect_same_positions((*fbx)->clip(), (*glb)->clip(), 10 * kNear);
+}
+
+TEST_F(Fbx, strength_0_and_convert_keep_every_byte) {
+  write("walk.fbx", format_fbx(walking_clip(40)));
+  ASSERT_EQ(run({"stylize", "walk.fbx", "--style", "old=0", "--replace", "-o", "same.fbx"}).exit,
+            0);
+  EXPECT_TRUE(read("same.fbx") == read("walk.fbx"));
+  ASSERT_EQ(run({"convert", "walk.fbx", "-o", "copy.fbx"}).exit, 0);
+  EXPECT_TRUE(read("copy.fbx") == read("walk.fbx"));
+}
+
+TEST_F(Fbx, other_formats_become_fbx_and_fbx_becomes_any) {
+  const Clip walk = walking_clip(40);
+  write("walk.bvh", format_bvh(walk));
+  ASSERT_TRUE(converted("walk.bvh", "out.fbx"));
+  const auto file = converted("out.fbx", "out.bvh");
+  ASSERT_TRUE(file);
+  expect_same_positions(walk, file->clip(), kNear);
+  // A character in FBX gets a motion and stays FBX.
+  ASSERT_EQ(run({"retarget", "walk.bvh", "--onto", "walk.fbx", "-o", "on.fbx"}).exit, 0);
+  const auto on = read_motion(path("on.fbx"));
+  ASSERT_TRUE(on.ok()) << on.error().message;
+  EXPECT_EQ((*on)->clip_names(), std::vector<std::string>{"walk"});
 }
 
 TEST_F(Fbx, a_skeleton_without_motion_has_nothing_to_restyle) {
@@ -151,7 +181,7 @@ TEST_F(Fbx, a_damaged_file_gets_a_message) {
     write("bad.fbx", good.substr(0, size));
     const Ran ran = run({"info", "bad.fbx"});
     EXPECT_EQ(ran.exit, 1) << size << ran.out;
-    EXPECT_TRUE(ran.err.starts_with("panache: bad.fbx: ")) << ran.err;
+    EXPECT_TRUE(ran.err.starts_with("panache: bad.fbx:")) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
   write("bad.fbx", "no such thing");
