@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -20,8 +21,19 @@ aiQuaternion assimp(Quatd q) {
           static_cast<float>(q.z)};
 }
 
+// Not Assimp's constructor from the three, which scales rows: after the rotation, not before it.
 aiMatrix4x4 matrix(const FbxTransform& t) {
-  return {assimp<aiVector3D>(t.scale), assimp(t.rotation), assimp<aiVector3D>(t.translation)};
+  const Vec3d x = rotate(t.rotation, Vec3d{t.scale.x, 0, 0}),
+              y = rotate(t.rotation, Vec3d{0, t.scale.y, 0}),
+              z = rotate(t.rotation, Vec3d{0, 0, t.scale.z}), at = t.translation;
+  const auto row = [](double a, double b, double c, double d) {
+    return std::array<float, 4>{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c),
+                                static_cast<float>(d)};
+  };
+  const auto [a1, a2, a3, a4] = row(x.x, y.x, z.x, at.x);
+  const auto [b1, b2, b3, b4] = row(x.y, y.y, z.y, at.y);
+  const auto [c1, c2, c3, c4] = row(x.z, y.z, z.z, at.z);
+  return {a1, a2, a3, a4, b1, b2, b3, b4, c1, c2, c3, c4, 0, 0, 0, 1};
 }
 
 aiMatrix4x4 world_of(const aiNode* node) {
@@ -60,7 +72,8 @@ void add_motions(const FbxScene& fbx, const std::vector<std::string>& names, aiS
     animation->mChannels = new aiNodeAnim*[std::max<size_t>(1, motion.frames.size())];
     for (const auto& [node, frames] : motion.frames) {
       if (names[node].empty() || frames.empty()) continue;
-      animation->mDuration = static_cast<double>(frames.size() - 1) * motion.frame_time;
+      const double duration = static_cast<double>(frames.size() - 1) * motion.frame_time;
+      animation->mDuration = std::max(animation->mDuration, duration);
       animation->mChannels[animation->mNumChannels++] =
           make_channel(names[node], frames, motion.frame_time);
     }

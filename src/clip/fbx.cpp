@@ -46,7 +46,7 @@ class FbxFile final : public MotionFile {
 bool FbxDocument::is_version_6() const {
   if (tree.version() >= 7000) return false;
   // A file that does not state its version has numbers as IDs from 7 on.
-  return tree.version() > 0 || std::ranges::none_of(models, [](const FbxModel& model) {
+  return tree.version() > 0 || !std::ranges::any_of(models, [](const FbxModel& model) {
            return model.node->values.size() > 2;
          });
 }

@@ -88,7 +88,8 @@ class FbxClipsReader {
         }
       }
     }
-    if (std::ranges::find(is_joint, true) == is_joint.end()) is_joint.assign(models_.size(), true);
+    if (std::find(is_joint.begin(), is_joint.end(), true) == is_joint.end())
+      is_joint.assign(models_.size(), true);
     for (size_t m = models_.size(); m-- > 0;) {
       if (is_joint[m] && models_[m].parent >= 0)
         is_joint[static_cast<size_t>(models_[m].parent)] = true;

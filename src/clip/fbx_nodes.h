@@ -11,6 +11,8 @@
 namespace panache {
 
 // A transform relative to the parent, in the file's unit: scale, then rotation, then translation.
+// Products of them place each node where InheritType does; its axes are those of InheritType, or
+// where those are sheared, the nearest.
 struct FbxTransform {
   Vec3d translation;
   Quatd rotation;
@@ -27,8 +29,9 @@ struct FbxSceneNode {
 
 struct FbxSceneMotion {
   std::string name;
-  double frame_time = 0;                               // Seconds.
-  std::map<size_t, std::vector<FbxTransform>> frames;  // Of the nodes that it animates.
+  double frame_time = 0;  // Seconds.
+  // Of the nodes that it animates; one frame for those that it sets for all of its time.
+  std::map<size_t, std::vector<FbxTransform>> frames;
 };
 
 struct FbxScene {

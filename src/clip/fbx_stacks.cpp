@@ -65,12 +65,12 @@ class FbxStacksReader {
     std::vector<const FbxNode*> layers;
     for (const FbxConnection* connection : below_[stack.id]) {
       const FbxNode* layer = object(connection->child, "AnimationLayer");
-      if (layer && !std::ranges::count(layers, layer)) layers.push_back(layer);
+      if (layer && !std::count(layers.begin(), layers.end(), layer)) layers.push_back(layer);
     }
     // Programs connect the base layer first. Where another one comes before it, the connections
     // have lost their order, and that of the objects counts.
-    const auto base =
-        std::ranges::find_if(layers, [&](const FbxNode* layer) { return is_base(*layer); });
+    const auto base = std::find_if(layers.begin(), layers.end(),
+                                   [&](const FbxNode* layer) { return is_base(*layer); });
     if (base != layers.end() && base != layers.begin()) {
       std::rotate(layers.begin(), base, base + 1);
       std::sort(layers.begin() + 1, layers.end(),

@@ -91,7 +91,7 @@ TEST_F(FbxMeshes, a_prop_is_where_pivots_and_its_own_geometry_place_it) {
                                       {"RotationPivot", {2, -1, 1}},
                                       {"ScalingPivot", {1, 2, 3}},
                                       {"ScalingOffset", {0, 1, 0}},
-                                      {"Lcl Scaling", {2, 2, 2}},
+                                      {"Lcl Scaling", {2, 0.5, 1}},
                                       {"GeometricTranslation", {0, 5, 0}},
                                       {"GeometricRotation", {90, 0, 0}},
                                       {"GeometricScaling", {1, 3, 1}}},
@@ -102,8 +102,8 @@ TEST_F(FbxMeshes, a_prop_is_where_pivots_and_its_own_geometry_place_it) {
       {"Take", {{"BaseLayer", {}, {{0, 1, {{turn, {}, {}}}}}}}}};
   std::vector<ScenePlace> places;
   for (const SceneModel& model : models) places.push_back(saved_place(model));
-  const Affine world =
-      worlds_by_formula(models, places)[2] * affine_move({0, 5, 0}) * affine_turn({90, 0, 0});
+  const Affine world = worlds_by_formula(models, places)[2] * affine_move({0, 5, 0}) *
+                       affine_turn({90, 0, 0}) * affine_grow({1, 3, 1});
   const std::string text = with_triangle(make_fbx_scene(models, stacks), 2);
   {
     write("in.fbx", text);

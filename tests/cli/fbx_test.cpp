@@ -1,5 +1,6 @@
 // FBX files: as they are, and as GLB with the meshes that Assimp reads.
 
+#include <array>
 #include <csignal>
 
 #include <nlohmann/json.hpp>
@@ -139,6 +140,77 @@ TEST_F(Fbx, stylize_gives_a_file_of_its_kind_or_a_glb_with_both_motions) {
   EXPECT_EQ((*glb)->clip_names(), expected);
   // Networks multiply rounding by about ten.
   expect_same_positions((*fbx)->clip(), (*glb)->clip(), 10 * kNear);
+}
+
+// Two walks, side by side, of joints with equal names.
+Clip two_walks() {
+  const Clip walk = walking_clip(40);
+  Clip out;
+  out.frame_time = walk.frame_time;
+  const auto count = static_cast<int>(walk.joints());
+  for (int figure = 0; figure < 2; ++figure) {
+    for (Joint joint : walk.skeleton.joints) {
+      if (joint.parent >= 0) joint.parent += figure * count;
+      out.skeleton.joints.push_back(joint);
+    }
+  }
+  out.resize(walk.frames);
+  for (int f = 0; f < walk.frames; ++f) {
+    for (size_t j = 0; j < out.joints(); ++j) {
+      const size_t of = j % walk.joints();
+      // The second is half a cycle late, or early.
+      const int at = j < walk.joints() ? f : (f + 15) % walk.frames;
+      out.pose(f).rotations[j] = walk.pose(at).rotations[of];
+      out.pose(f).translations[j] = walk.pose(f).translations[of];
+      if (j == walk.joints()) out.pose(f).translations[j].x += 1;
+    }
+  }
+  return out;
+}
+
+// How far the joints of a name, of the first figure and of the second, are from where they were,
+// along each axis by its weight.
+std::pair<float, float> moved(const Clip& from, const Clip& to, const std::string& name,
+                              Vec3 weights = {1, 1, 1}) {
+  EXPECT_EQ(from.frames, to.frames);
+  std::array<float, 2> most = {};
+  std::vector<Quat> rotations(from.joints());
+  std::vector<Vec3> before(from.joints()), after(from.joints());
+  for (int f = 0; f < std::min(from.frames, to.frames); ++f) {
+    world_pose(from.skeleton, from.pose(f), {rotations, before});
+    world_pose(to.skeleton, to.pose(f), {rotations, after});
+    for (size_t j = 0; j < from.joints(); ++j) {
+      const std::string& called = from.skeleton.joints[j].name;
+      if (called != name && called != name + " (2)") continue;
+      float& of = most[called == name ? 0 : 1];
+      const Vec3 by = after[j] - before[j];
+      of = std::max(of, length(Vec3{by.x * weights.x, by.y * weights.y, by.z * weights.z}));
+    }
+  }
+  return {most[0], most[1]};
+}
+
+TEST_F(Fbx, every_figure_is_styled_and_stays_where_it_was_though_names_are_equal) {
+  write("made.fbx", format_fbx(two_walks()));
+  write("other.fbx",
+        *read_file(PANACHE_SOURCE_DIR "/tests/fixtures/fbx/two-figures-equal-names.fbx"));
+  for (const std::string from : {"made.fbx", "other.fbx"}) {
+    SCOPED_TRACE(from);
+    const Ran ran = run({"stylize", from, "--style", "old=1", "--force", "-o", "old.fbx"});
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+    ASSERT_EQ(run({"stylize", from, "--style", "old=1", "--force", "-o", "old.glb"}).exit, 0);
+    const auto in = read_motion(path(from)), out = read_motion(path("old.fbx")),
+               glb = read_motion(path("old.glb"));
+    ASSERT_TRUE(in.ok() && out.ok() && glb.ok());
+    expect_same_positions((*out)->clip(), (*glb)->clip(), 10 * kNear);
+    const auto hands = moved((*in)->clip(), (*out)->clip(), "leftHand");
+    const auto hips = moved((*in)->clip(), (*out)->clip(), "hips", {1, 0, 0});
+    // A style bends arms by centimetres; figures are a metre apart, sideways.
+    EXPECT_GT(hands.first, 0.02f);
+    EXPECT_GT(hands.second, 0.02f);
+    EXPECT_LT(hips.first, 0.3f);
+    EXPECT_LT(hips.second, 0.3f);
+  }
 }
 
 TEST_F(Fbx, strength_0_and_convert_keep_every_byte) {

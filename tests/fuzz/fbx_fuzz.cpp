@@ -25,7 +25,8 @@ void write_in_every_way(const std::string& bytes) {
     pose.translations.back().x += 0.1f;
   }
   const Clip rest = (*file)->rest();
-  for (const ClipEdit& edit : {ClipEdit{0, &changed, frames, "a"}, ClipEdit{kNewClip, &rest, {}, ""}}) {
+  for (const ClipEdit& edit :
+       {ClipEdit{0, &changed, frames, "a"}, ClipEdit{kNewClip, &rest, {}, ""}}) {
     for (const EditMode mode : {EditMode::replace, EditMode::add_beside, EditMode::add_first}) {
       const std::string written = (*file)->encode({&edit, 1}, mode);
       const auto again = parse_fbx(written, "again.fbx");

@@ -113,10 +113,27 @@ void add_fbx_scenes() {
   add("fbx/chain", text);
   add("fbx/chain-packed", test::to_binary_fbx7(text, 7400, true));
   add("fbx/shuffled", test::make_fbx_scene(models, stacks, {.reversed = true, .up_axis = 2}));
-  std::string cycle = text;
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string out = text;
+    const size_t at = out.find(from);
+    if (at == out.npos) std::exit(1);
+    return out.replace(at, from.size(), to);
+  };
+  add("fbx/cycle", with("C: \"OO\",2000,0", "C: \"OO\",2000,2002"));
+  add("fbx/below-itself", with("C: \"OO\",2001,2000", "C: \"OO\",2001,2001"));
+  // Objects 5000 to 5003 are the stack, its base layer, and a curve node with its first curve.
   const std::string root = "C: \"OO\",2000,0";
-  cycle.replace(cycle.find(root), root.size(), "C: \"OO\",2000,2002");
-  add("fbx/cycle", cycle);
+  add("fbx/layer-in-itself", with(root, root + "\n\tC: \"OO\",5001,5001\n\tC: \"OO\",5000,5001"));
+  add("fbx/node-in-two-layers",
+      with(root, root + "\n\tC: \"OO\",5002,5000\n\tC: \"OP\",5002," + "2001, \"Lcl Scaling\""));
+  add("fbx/curve-as-weight",
+      with(root, root + "\n\tC: \"OP\",5002,5001, \"Weight\"\n\tC: \"OP\",5003,5003, \"d|X\""));
+  add("fbx/short-chain",
+      with("\"RotationPivot\", \"\", \"\", \"\",2,3,-4", "\"RotationPivot\", \"\", \"\", \"\",2"));
+  add("fbx/far-pivot", with("\"ScalingPivot\", \"\", \"\", \"\",4,-3,6",
+                            "\"ScalingPivot\", \"\", \"\", \"\",1e9,-1e300,nan"));
+  add("fbx/flat", with("\"\",1.5,0.5,-1", "\"\",0,0.5,-1e-9"));
+  add("fbx/keys-back", with("KeyTime: *2 {\n\t\t\ta: 0,", "KeyTime: *2 {\n\t\t\ta: 99999999999,"));
 }
 
 }  // namespace

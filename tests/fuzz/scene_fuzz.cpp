@@ -1,6 +1,6 @@
-// What scene, of any tree, numbers and skins, Assimp has read out of an FBX file, and what nodes and
-// motions our own reader has. Assimp's own reading happens in a process that is locked down, and is
-// not fuzzed.
+// What scene, of any tree, numbers and skins, Assimp has read out of an FBX file, and what nodes
+// and motions our own reader has. Assimp's own reading happens in a process that is locked down,
+// and is not fuzzed.
 
 #include <cmath>
 #include <memory>
