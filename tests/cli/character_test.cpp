@@ -133,8 +133,8 @@ TEST_F(Character, a_styled_fbx_of_joints_alone_is_one_too) {
   must({"retarget", "walk.fbx", "--onto", "walk.fbx", "-o", "again.glb"});
   for (const char* name : {"old.glb", "again.glb"}) {
     EXPECT_EQ(json_of(name)["skins"].size(), 1u) << name;
-    EXPECT_EQ(json_of(name)["meshes"][0]["name"], "body") << name;
   }
+  EXPECT_EQ(json_of("old.glb")["meshes"][0]["name"], "body");
 }
 
 TEST_F(Character, a_texture_takes_the_place_of_the_colour_and_becomes_png) {
