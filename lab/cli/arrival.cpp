@@ -91,12 +91,11 @@ int run(const Options& options) {
   need(check_files(data.rows));
   std::vector<ManifestRow> training, test, neutral, others;
   for (const ManifestRow& row : data.rows) {
-    if (row.content != "walk") continue;
-    (row.test ? test : training).push_back(row);
-    if (row.test && row.neutral) neutral.push_back(row);
+    if (row.content != kWalk) continue;
+    (!row.test ? training : row.neutral ? neutral : test).push_back(row);
   }
   for (const ManifestRow& row : data.unlabelled) {
-    if (row.test && row.content == "walk") others.push_back(row);
+    if (row.test && row.content == kWalk) others.push_back(row);
   }
   const std::vector<Take> takes = need(load_takes(training, PoseLayout::positions));
   const std::vector<Take> held_out = need(load_takes(test, PoseLayout::positions));

@@ -29,16 +29,21 @@ double deviation(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-// The strongest frequency of a walk's strides, Hz.
-double main_frequency(const std::vector<double>& values) {
-  const double middle = mean(values);
+// The strongest frequency of the feet's distance along the heading, Hz.
+double stride_frequency(const Take& take) {
+  using enum HumanJoint;
+  std::vector<double> strides;
+  for (int f = kEased; f < take.frames(); ++f) {
+    strides.push_back(double{take.body[f][index(left_foot)].z - take.body[f][index(right_foot)].z});
+  }
+  const double middle = mean(strides);
   double best = 0, strongest = -1;
   for (double hertz = kSlowest; hertz <= kFastest; hertz += kSpacing) {
     double cosine = 0, sine = 0;
-    for (size_t i = 0; i < values.size(); ++i) {
+    for (size_t i = 0; i < strides.size(); ++i) {
       const double angle = 2 * std::numbers::pi * hertz * static_cast<double>(i) / kTakeRate;
-      cosine += (values[i] - middle) * std::cos(angle);
-      sine += (values[i] - middle) * std::sin(angle);
+      cosine += (strides[i] - middle) * std::cos(angle);
+      sine += (strides[i] - middle) * std::sin(angle);
     }
     const double power = cosine * cosine + sine * sine;
     if (power > strongest) strongest = power, best = hertz;
@@ -53,7 +58,7 @@ Movement movement_of(const Take& take) {
   Movement out;
   out.fill(std::numeric_limits<double>::quiet_NaN());
   if (take.frames() < kMinFrames) return out;
-  std::vector<double> thighs, wrists, heights, leans, strides;
+  std::vector<double> thighs, wrists, heights, leans;
   std::array<std::vector<double>, 2> swings;
   for (int f = kEased; f < take.frames(); ++f) {
     const auto at = [&](HumanJoint joint) { return take.body[f][index(joint)]; };
@@ -70,7 +75,6 @@ Movement movement_of(const Take& take) {
     heights.push_back(at(hips).y);
     const Vec3 trunk = at(neck) - at(hips);
     leans.push_back(kDegrees * std::atan2(trunk.z, trunk.y));
-    strides.push_back(at(left_foot).z - at(right_foot).z);
   }
   const double cm = 100 * kLeg / kProportions.leg;
   out = {quantile(thighs, 0.9),
@@ -78,23 +82,17 @@ Movement movement_of(const Take& take) {
          cm * (deviation(swings[0]) + deviation(swings[1])) / 2,
          cm * deviation(heights),
          quantile(leans, 0.5),
-         2 * main_frequency(strides),
+         2 * stride_frequency(take),
          quantile(heights, 0.5) / kProportions.leg};
   return out;
 }
 
 SideVector side_of(const Take& take) {
-  using enum HumanJoint;
   if (take.frames() < kMinFrames) return {};
-  const int first = kEased;
-  std::vector<double> strides;
-  for (int f = first; f < take.frames(); ++f) {
-    strides.push_back(double{take.body[f][index(left_foot)].z - take.body[f][index(right_foot)].z});
-  }
   // Whole strides: half a stride more and one foot is ahead on average.
-  const double stride = kTakeRate / main_frequency(strides);
-  const double whole = std::floor(static_cast<double>(strides.size()) / stride);
-  const int count = whole < 1 ? static_cast<int>(strides.size()) : static_cast<int>(whole * stride);
+  const int first = kEased;
+  const double all = take.frames() - first, stride = kTakeRate / stride_frequency(take);
+  const int count = static_cast<int>(all < stride ? all : std::floor(all / stride) * stride);
   const int end = first + count;
   HumanPositions middle{}, spread{};
   const auto place = [&](int f, int j) { return take.body[f][j] - take.body[f][0]; };

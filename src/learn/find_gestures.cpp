@@ -357,15 +357,16 @@ FoundGestures find_gestures(const std::vector<Take>& takes, std::span<const Pair
   if (seconds > 0) found.rate = static_cast<float>(static_cast<double>(moments.size()) / seconds);
   moments.resize(std::min(moments.size(), size_t{kFoundGestures}));
   std::vector<Gesture> gestures;
+  std::vector<double> begins;
   for (const Moment& moment : moments) {
     const std::vector<Excess>& frames = excess[moment.take];
-    const double begin = std::max(0.0, moment.first / kTakeRate - kEase);
-    gestures.push_back(make_gesture(frames, moment, moving_parts(frames, moment, limits), begin));
+    begins.push_back(std::max(0.0, moment.first / kTakeRate - kEase));
+    gestures.push_back(
+        make_gesture(frames, moment, moving_parts(frames, moment, limits), begins.back()));
   }
   name_gestures(gestures);
   for (size_t g = 0; g < gestures.size(); ++g) {
-    const double begin = std::max(0.0, moments[g].first / kTakeRate - kEase);
-    found.gestures.push_back({gestures[g], moments[g].take, begin, moments[g].strength});
+    found.gestures.push_back({gestures[g], moments[g].take, begins[g], moments[g].strength});
   }
   return found;
 }
