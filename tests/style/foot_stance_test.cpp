@@ -44,7 +44,7 @@ class Standing : public ::testing::Test {
       body_.joints[index(HumanJoint::left_toes)].z += speed * kTick;
       change_ = asked();
       changed_joints(body_, change_, joints_);
-      stage_.step(body_, joints_, stance_, 1, stepping, {kTick, kTick, first_}, change_);
+      stage_.step(body_, joints_, stance_, 1, stepping, lift_, {kTick, kTick, first_}, change_);
       first_ = false;
     }
     changed_joints(body_, change_, joints_);
@@ -63,7 +63,7 @@ class Standing : public ::testing::Test {
   PosedRig rig_;
   BodyPose body_;
   Stance stance_;
-  float fold_ = 0.5f, heel_ = 0, turn_ = 0, hips_ = 0;
+  float fold_ = 0.5f, heel_ = 0, turn_ = 0, hips_ = 0, lift_ = 0;
   FootStance stage_;
   bool first_ = true;
   BodyChange change_;
@@ -75,6 +75,14 @@ TEST_F(Standing, a_foot_that_hangs_comes_down_with_heel_and_toe) {
   run(1);
   EXPECT_NEAR(above_input(HumanJoint::left_foot), 0, 2e-3f);
   EXPECT_NEAR(above_input(HumanJoint::left_toes), 0, 2e-3f);
+}
+
+TEST_F(Standing, a_hop_takes_the_feet_with_it) {
+  heel_ = 0.4f;
+  lift_ = hips_ = 0.1f;
+  run(1);
+  EXPECT_NEAR(above_input(HumanJoint::left_foot), lift_, 2e-3f);
+  EXPECT_NEAR(above_input(HumanJoint::left_toes), lift_, 2e-3f);
 }
 
 TEST_F(Standing, hips_come_down_where_the_leg_is_too_short) {
@@ -137,7 +145,7 @@ TEST_F(Standing, the_pose_after_the_first_tells_whether_the_first_one_rests) {
     stage_.reset();
     change_ = asked();
     changed_joints(body_, change_, joints_);
-    stage_.step(body_, joints_, stance_, 1, 0, {0, 0, true, &next}, change_);
+    stage_.step(body_, joints_, stance_, 1, 0, 0, {0, 0, true, &next}, change_);
     return stage_.held()[0];
   };
   EXPECT_EQ(first_step(), 1);

@@ -47,7 +47,7 @@ void add_gesture(const GesturePose& gesture, const Shape& shape, const HeadingBo
     turns[j] = kHumanParent[j] < 0 ? own : normalized(turns[kHumanParent[j]] * own);
     change.rotations[j] = normalized(turns[j] * change.rotations[j]);
   }
-  const float lift = gesture.lift * legs_of(shape);
+  const float lift = gesture_lift(gesture, shape);
   float height = gesture.height * legs_of(shape);
   if (height == 0 && lift == 0 && gesture.turns[0] == Vec3{}) return;
   changed_joints(body, change, joints);
@@ -64,8 +64,10 @@ void add_gesture(const GesturePose& gesture, const Shape& shape, const HeadingBo
   }
 }
 
-float share_lifted(const GesturePose& gesture, const Shape& shape) noexcept {
-  return smooth_step(gesture.lift * legs_of(shape) / kLifted);
+float gesture_lift(const GesturePose& gesture, const Shape& shape) noexcept {
+  return gesture.lift * legs_of(shape);
 }
+
+float share_lifted(float lift) noexcept { return smooth_step(lift / kLifted); }
 
 }  // namespace panache

@@ -12,7 +12,8 @@ namespace panache {
 void add_gesture(const GesturePose& gesture, const Shape& shape, const HeadingBody& body,
                  BodyChange& change) noexcept;
 
-// How far a gesture lifts the feet off the floor, 0 to 1.
-float share_lifted(const GesturePose& gesture, const Shape& shape) noexcept;
+// How far a gesture lifts both feet, metres, and whether that takes them off the floor, 0 to 1.
+float gesture_lift(const GesturePose& gesture, const Shape& shape) noexcept;
+float share_lifted(float lift) noexcept;
 
 }  // namespace panache

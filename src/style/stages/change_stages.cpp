@@ -52,7 +52,7 @@ void carry_out(Shaping& shaping, StageWork& work) noexcept {
 void carry_out(Gestures&, StageWork& work) noexcept {
   if (!work.asked.gesture) return;
   add_gesture(*work.asked.gesture, work.shape, work.body, work.change);
-  work.lifted = share_lifted(*work.asked.gesture, work.shape);
+  work.lift = gesture_lift(*work.asked.gesture, work.shape);
 }
 
 void carry_out(Anatomy& anatomy, StageWork& work) noexcept {
@@ -71,7 +71,7 @@ void carry_out(LegsApart& legs, StageWork& work) noexcept {
 
 void carry_out(FloorClearance& floor, StageWork& work) noexcept {
   const float carried =
-      work.above_floor * (1 - work.seated) * (1 - work.flight) * (1 - work.lifted);
+      work.above_floor * (1 - work.seated) * (1 - work.flight) * (1 - share_lifted(work.lift));
   floor.step(work.now.world, work.joints, work.asked.amount, carried, work.time, work.change);
 }
 
@@ -82,9 +82,8 @@ void carry_out(FreeFall& fall, StageWork& work) noexcept {
 void carry_out(FootStance& stance, StageWork& work) noexcept {
   if (!work.options.foot_lock) return;
   const float amount = work.asked.amount * work.asked.shape->foot_lock;
-  stance.step(work.body, work.joints, work.asked.stance,
-              amount * (1 - work.flight) * (1 - work.lifted), work.stepping, work.time,
-              work.change);
+  stance.step(work.body, work.joints, work.asked.stance, amount * (1 - work.flight), work.stepping,
+              work.lift, work.time, work.change);
   std::ranges::copy(stance.held(), work.resting.begin());
 }
 

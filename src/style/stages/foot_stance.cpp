@@ -54,7 +54,7 @@ void FootStance::watch(const BodyPose& body, int f, const StepTime& time, Foot& 
 }
 
 void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Stance& stance,
-                      float amount, float stepping, const StepTime& time,
+                      float amount, float stepping, float lift, const StepTime& time,
                       BodyChange& change) noexcept {
   const float standing = amount * (1 - stepping);
   const bool fresh = time.first || !feet_[0].seen;
@@ -76,23 +76,23 @@ void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Sta
     Vec3 ahead = body.ways[toe];
     ahead.y = 0;
     const Vec3 side = cross({0, 1, 0}, normalized(ahead, {0, 0, 1}));
-    const float lift = angle_about(side, rotation_y(-yaw) * foot);
-    const float heel = std::clamp(lift, 0.0f, std::max(0.0f, stance.heel));
+    const float tilt = angle_about(side, rotation_y(-yaw) * foot);
+    const float heel = std::clamp(tilt, 0.0f, std::max(0.0f, stance.heel));
     foot = nlerp(foot, turn * axis_angle(side, heel), held_[f]);
     Quat& toes = change.rotations[toe];
     toes = nlerp(toes, turn, held_[f]);
   }
   changed_legs(body, change, joints);
 
-  // The rise of each ankle that puts its toe at the input's height, and the drop of the hips that
-  // this needs.
+  // The rise of each ankle that puts its toe at the input's height, or `lift` above it, and the
+  // drop of the hips that this needs.
   const float origin = mid_hip(body).y + change.translation.y;
   std::array<float, kFeet> rise;
   float drop = 0;
   for (int f = 0; f < kFeet; ++f) {
     const Vec3 hip = joints[index(kUpperLegs[f])], knee = joints[index(kLowerLegs[f])];
     const Vec3 ankle = joints[index(kAnkles[f])];
-    rise[f] = held_[f] * (feet_[f].toe.y - (origin + joints[index(kToes[f])].y));
+    rise[f] = held_[f] * (feet_[f].toe.y + lift - (origin + joints[index(kToes[f])].y));
     const Vec3 way = ankle - hip;
     const float leg = kReach * (length(knee - hip) + length(ankle - knee));
     const float aside = way.x * way.x + way.z * way.z;

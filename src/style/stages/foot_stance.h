@@ -18,9 +18,9 @@ class FootStance {
  public:
   void reset() noexcept { *this = {}; }
   // `joints`: changed_joints(); updated. `amount`: how active any style is, 0 to 1. `stepping`:
-  // StepWatch::amount().
+  // StepWatch::amount(). `lift`: how far a gesture lifts both feet, metres.
   void step(const HeadingBody& body, HumanPositions& joints, const Stance& stance, float amount,
-            float stepping, const StepTime& time, BodyChange& change) noexcept;
+            float stepping, float lift, const StepTime& time, BodyChange& change) noexcept;
   // How much each foot was held at its height at the last step, 0 to 1.
   std::span<const float, kFeet> held() const noexcept { return held_; }
 

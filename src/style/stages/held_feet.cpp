@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "style/stages/add_gesture.h"
+
 namespace panache {
 
 void HeldFeet::step(StageWork& work) noexcept {
@@ -11,7 +13,7 @@ void HeldFeet::step(StageWork& work) noexcept {
     const float planted = planted_near_floor(work.asked.contacts[f], height);
     // A foot is released if holding it turns the thigh further than a hip can; a resting foot is
     // planted, whatever the network's output.
-    const float held = planted * ((1 - thighs_.share(f)) * (1 - work.lifted));
+    const float held = planted * ((1 - thighs_.share(f)) * (1 - share_lifted(work.lift)));
     contacts_[f] = std::max(held, work.resting[f]);
   }
   if (work.options.foot_lock) {

@@ -57,7 +57,7 @@ struct StageWork {
   const StyleDelta* delta = nullptr;  // Filtered; set by the filter.
   RootOffset root = {};               // The style's change of the way.
   Shape shape = {};                   // As requested, reduced where it does not suit the body.
-  float lifted = 0;                   // How far a gesture lifts the feet off the floor, share.
+  float lift = 0;                     // How far a gesture lifts both feet, metres.
   HumanPositions joints = {};  // changed_joints() of body and change, from the balance stage on.
   std::array<float, kFeet> resting{};  // How much feet keep their height, shares.
   HandHolds holds = {};                // Contacts that the hands keep.
