@@ -132,6 +132,7 @@ package.__path__ = [ADDON]
 sys.modules['panache'] = package
 core = types.ModuleType('panache.core')
 core.Clip = core.Model = core.Skeleton = core.learn = core.stylize = None
+core.__file__ = os.path.join(ADDON, 'core', '__init__.py')
 core.PanacheError = type('PanacheError', (Exception,), {})
 sys.modules['panache.core'] = core
 from panache import actions, library  # noqa: E402

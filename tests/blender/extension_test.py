@@ -3,6 +3,7 @@ it starts, restyles, and keeps learnt styles in its own folder."""
 
 import importlib
 import os
+import re
 import sys
 import zipfile
 
@@ -14,6 +15,11 @@ place = os.path.join(folder, 'modules', *NAME.split('.'))
 with zipfile.ZipFile(library_zip.removesuffix('.zip') + '-extension.zip') as archive:
     archive.extractall(place)
 sys.path.append(os.path.join(folder, 'modules'))
+with open(os.path.join(place, 'blender_manifest.toml')) as file:
+    for wheel in re.findall(r'"\./(wheels/[^"]+)"', file.read()):
+        with zipfile.ZipFile(os.path.join(place, wheel)) as archive:
+            archive.extractall(os.path.join(folder, 'site-packages'))
+sys.path.append(os.path.join(folder, 'site-packages'))
 own = os.path.join(folder, 'own')
 
 
@@ -38,6 +44,7 @@ extension = importlib.import_module(NAME)
 extension.register()
 settings = sys.modules[NAME + '.settings']
 assert 'old' in settings.model().styles
+assert settings.SHIPPED.startswith(os.path.join(folder, 'site-packages', 'panache')), settings.SHIPPED
 assert bpy.context.preferences.addons[NAME].preferences is not None
 with open(settings.SHIPPED, 'rb') as file:
     settings.keep_learnt(file.read())

@@ -1,6 +1,7 @@
 """manifest_test.py ROOT ZIP: the extension beside the add-on ZIP has a manifest of schema 1.0.0, as
 Blender's manual describes it, and both have all files that they need. Needs no Blender."""
 
+import io
 import os
 import re
 import sys
@@ -74,22 +75,35 @@ def check_files(archive, top):
     expect(archive.testzip() is None, f'{archive.filename}: is broken')
     expect(all(name.startswith(top) for name in names), f'{archive.filename}: files outside of {top}')
     sources = os.listdir(os.path.join(root, 'apps/blender/panache'))
-    needed = [name for name in sources if name.endswith('.py')] + [
-        'core/__init__.py', 'core/lib/libpanache.so', 'core/models/panache-int8.safetensors',
-        'core/models/neutral.safetensors', 'core/models/README.md', 'LICENSE', 'README.md']
+    needed = [name for name in sources if name.endswith('.py')] + ['LICENSE', 'README.md']
     for name in needed:
         expect(top + name in names, f'{archive.filename}: no {top}{name}')
     expect(not any(re.search(r'__pycache__|\.pyc$|/\.', name) for name in names),
            f'{archive.filename}: files of a cache or hidden ones')
-    expect(len(archive.read(f'{top}core/lib/libpanache.so')) > 500_000, 'the library is too small')
+    expect(b'MIT License' in archive.read(top + 'LICENSE'), f'{archive.filename}: is not under MIT')
     return {name.removeprefix(top) for name in names if not name.endswith('/')}
+
+
+def check_package(archive, top):
+    """The Python package, in its folder `top`."""
+    for name in ('__init__.py', 'lib/libpanache.so', 'models/panache-int8.safetensors',
+                 'models/neutral.safetensors', 'models/README.md'):
+        expect(top + name in archive.namelist(), f'{archive.filename}: no {top}{name}')
+    expect(len(archive.read(f'{top}lib/libpanache.so')) > 500_000, 'the library is too small')
 
 
 with zipfile.ZipFile(addon_zip) as addon, zipfile.ZipFile(extension_zip) as extension:
     of_addon, of_extension = check_files(addon, 'panache/'), check_files(extension, '')
-    expect(of_extension - of_addon == {'blender_manifest.toml'} and of_addon <= of_extension,
-           f'the zips differ in {of_addon ^ of_extension}')
     manifest = tomllib.loads(extension.read('blender_manifest.toml').decode())
+    wheels = {name.removeprefix('./') for name in manifest['wheels']}
+    expect(of_extension - of_addon == {'blender_manifest.toml'} | wheels and len(wheels) == 1 and
+           all(name.startswith('core/') for name in of_addon - of_extension),
+           f'the zips differ in {of_addon ^ of_extension}')
+    expect(manifest['license'] == ['SPDX:MIT'], 'manifest: not the licence of the file LICENSE')
+    check_package(addon, 'panache/core/')
+    for name in wheels:
+        with zipfile.ZipFile(io.BytesIO(extension.read(name))) as wheel:
+            check_package(wheel, 'panache/')
     check_manifest(manifest)
     # What the code does is what the permissions say.
     text = b''.join(extension.read(name) for name in of_extension if name.endswith('.py')).decode()
@@ -99,7 +113,7 @@ with zipfile.ZipFile(addon_zip) as addon, zipfile.ZipFile(extension_zip) as exte
     for permission, pattern in uses.items():
         expect((re.search(pattern, text) is not None) == (permission in manifest['permissions']),
                f'manifest: permission {permission} is not what the code does')
-    # Names of other packages would not be found below bl_ext.
+    # In the add-on it would find the add-on itself.
     expect(not re.search(r'^\s*(import panache|from panache)\b', text, re.MULTILINE),
            'an import by the name of the add-on')
 

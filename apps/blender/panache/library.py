@@ -1,14 +1,18 @@
-"""The parts of Panache's Python package (`core` in the zip) that the add-on uses."""
+"""The parts of Panache's Python package that the add-on uses. An extension has it as a wheel; the
+add-on for older versions of Blender is itself named panache, and has it inside, as `core`."""
 
 import glob
+import importlib
 import os
 
-from .core import Clip, PanacheError, Skeleton
-from .core import Model as CoreModel
-from .core import learn as core_learn
-from .core import stylize
+package = importlib.import_module('panache' if __package__.startswith('bl_ext.') else '.core',
+                                  __package__)
+Clip, PanacheError, Skeleton = package.Clip, package.PanacheError, package.Skeleton
+stylize = package.stylize
 
-__all__ = ['Clip', 'Model', 'PanacheError', 'Skeleton', 'learn', 'stylize']
+__all__ = ['Clip', 'Model', 'PanacheError', 'SHIPPED', 'Skeleton', 'learn', 'stylize']
+
+SHIPPED = os.path.join(os.path.dirname(package.__file__), 'models', 'panache-int8.safetensors')
 
 
 class Model:
@@ -18,7 +22,7 @@ class Model:
 
     def __init__(self, path, folder=''):
         self.path = path
-        self.own = self.all = CoreModel(path)
+        self.own = self.all = package.Model(path)
         self.problems = []  # Errors of unusable style files.
         files = glob.glob(os.path.join(glob.escape(folder), '*.safetensors')) if folder else []
         for name in sorted(files):
@@ -39,7 +43,7 @@ def learn(model, neutral, styled, name, replace):
     """Learns a style from clips of one rig; if `neutral` is None, the mean of other people is used.
     An existing style of that name is replaced if `replace`, else it is an error. Returns the bytes
     of the model with the style, and messages about it."""
-    learnt = core_learn(model.own, [(neutral, styled)] if neutral else styled, name, replace)
+    learnt = package.learn(model.own, [(neutral, styled)] if neutral else styled, name, replace)
     lines = list(learnt.warnings)
     if learnt.people:
         lines.insert(0, 'without a neutral action: %d other people move alike; %.0f %% of the '

@@ -10,7 +10,7 @@ from bpy.props import (BoolProperty, EnumProperty, FloatProperty, PointerPropert
 
 from . import library, preview
 
-SHIPPED = os.path.join(os.path.dirname(__file__), 'core', 'models', 'panache-int8.safetensors')
+SHIPPED = library.SHIPPED
 MANY_STYLES = 20
 # name: (label, description, default)
 SHAPE = {
