@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPacked = ".gz";
+constexpr std::string_view kPacked = ".br";
 
 const char* type_of(std::string_view path) {
   constexpr std::pair<std::string_view, const char*> kTypes[] = {
@@ -22,6 +22,7 @@ const char* type_of(std::string_view path) {
       {".js", "text/javascript; charset=utf-8"},
       {".css", "text/css; charset=utf-8"},
       {".txt", "text/plain; charset=utf-8"},
+      {".wasm", "application/wasm"},
       {".svg", "image/svg+xml"},
       {".png", "image/png"},
   };
@@ -67,7 +68,7 @@ Result<PageFiles> PageFiles::read(const std::string& folder) {
     (packed ? file.packed_tag : file.bytes_tag) = tag_of(*bytes);
     (packed ? file.packed : file.bytes) = *std::move(bytes);
   }
-  // A gzip without its original is of no use to browsers that do not ask for one.
+  // A packed file without its original is of no use to browsers that do not ask for one.
   std::erase_if(out.files_, [](const auto& entry) { return entry.second.bytes_tag.empty(); });
   for (auto& [path, file] : out.files_) file.type = type_of(path);
   return out;

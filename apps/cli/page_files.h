@@ -13,12 +13,12 @@ namespace panache::cli {
 struct PageFile {
   const char* type = "";           // "text/html; charset=utf-8"
   std::string bytes, bytes_tag;    // The tags name the content, as an ETag does.
-  std::string packed, packed_tag;  // Empty if the build stored no FILE.gz.
+  std::string packed, packed_tag;  // Brotli; empty if the build stored no FILE.br.
 };
 
 class PageFiles {
  public:
-  // Reads all files of a folder and its subfolders. A file NAME.gz next to NAME is its gzip.
+  // Reads all files of a folder and its subfolders. A file NAME.br next to NAME is the same, compressed.
   static Result<PageFiles> read(const std::string& folder);
 
   // The file at a decoded path of an address: "/assets/main.js"; "/" is "/index.html". Null if

@@ -60,7 +60,7 @@ int status_of(const httplib::Request& request, int port) {
   return request.method == "GET" || request.method == "HEAD" ? 0 : kMethodNotAllowed;
 }
 
-// Whether a header that lists names, like "gzip, br", has this one; "gzip;q=0" is none.
+// Whether a header that lists names, like "gzip, br", has this one; "br;q=0" is none.
 bool lists(const httplib::Request& request, const char* header, std::string_view name) {
   const std::string text = request.get_header_value(header);
   std::string_view rest = text;
@@ -81,7 +81,7 @@ bool lists(const httplib::Request& request, const char* header, std::string_view
 
 // Sends a file as it is stored, or tells the browser that it has this content already.
 void send_file(const PageFile& file, const httplib::Request& request, httplib::Response& answer) {
-  const bool packed = !file.packed.empty() && lists(request, "Accept-Encoding", "gzip");
+  const bool packed = !file.packed.empty() && lists(request, "Accept-Encoding", "br");
   const std::string& bytes = packed ? file.packed : file.bytes;
   const std::string& tag = packed ? file.packed_tag : file.bytes_tag;
   answer.set_header("ETag", tag);
@@ -90,7 +90,7 @@ void send_file(const PageFile& file, const httplib::Request& request, httplib::R
     answer.status = kNotModified;
     return;
   }
-  if (packed) answer.set_header("Content-Encoding", "gzip");
+  if (packed) answer.set_header("Content-Encoding", "br");
   // httplib compresses contents that it holds itself, at each request.
   answer.set_content_provider(bytes.size(), file.type,
                               [&bytes](size_t offset, size_t length, httplib::DataSink& sink) {

@@ -1,6 +1,7 @@
-import { readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, statSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { gzipSync } from 'node:zlib';
+import { basename } from 'node:path';
+import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
 import { build, defineConfig, type Plugin } from 'vite';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
@@ -18,10 +19,9 @@ const late = {
   zip: "export { zipSync } from 'fflate';",
 };
 
-const gzip = (bytes: Uint8Array | string) => gzipSync(bytes, { level: 9 });
-// A file as a script, gzip in base64: a page opened from disk may not fetch anything.
-const packedScripts = Object.entries(files).map(([name, path]): [string, string] =>
-  [name, `packed_${name}='${gzip(readFileSync(path)).toString('base64')}';`]);
+// A page opened from disk may not fetch anything: there, a file is a script, gzip in base64.
+const packedScript = (name: string, bytes: Uint8Array) =>
+  `packed_${name}='${gzipSync(bytes, { level: 9 }).toString('base64')}';`;
 // The styles of the remover, which itself is loaded later.
 function listRemovable() {
   const bytes = readFileSync(files.remover);
@@ -40,9 +40,10 @@ function virtualModules(): Plugin {
     load(id) {
       const [kind, name] = id.replace(`\0${prefix}`, '').split('/');
       if (kind === 'late') return late[name as keyof typeof late];
-      if (kind === 'sizes') {
-        const sizes = packedScripts.map(([packed, text]) => [packed, text.length]);
-        return `export default ${JSON.stringify(Object.fromEntries(sizes))};`;
+      if (kind === 'files') {
+        const list = Object.entries(files).map(([late, path]) =>
+          [late, { file: basename(path), size: statSync(path).size }]);
+        return `export default ${JSON.stringify(Object.fromEntries(list))};`;
       }
       return kind === 'removable' ? listRemovable() : null;
     },
@@ -64,8 +65,11 @@ function lateScripts(): Plugin {
     name: 'panache-late-scripts',
     apply: 'build',
     async generateBundle() {
-      for (const [name, source] of packedScripts) {
-        this.emitFile({ type: 'asset', fileName: `assets/${name}.js`, source });
+      for (const [name, path] of Object.entries(files)) {
+        const source = readFileSync(path);
+        this.emitFile({ type: 'asset', fileName: `assets/${basename(path)}`, source });
+        this.emitFile(
+          { type: 'asset', fileName: `assets/${name}.js`, source: packedScript(name, source) });
       }
       for (const name of Object.keys(late)) {
         const [made] = [await build({ configFile: false, logLevel: 'warn',
@@ -94,16 +98,18 @@ function licences(): Plugin {
   };
 }
 
-// FILE.gz next to each FILE: `panache view` and web servers that know them (gzip_static) send these
-// as they are.
-function gzipped(): Plugin {
+// FILE.br next to each FILE that a server sends: `panache view` and web servers that know them
+// (brotli_static) send these as they are.
+function compressed(): Plugin {
   return {
-    name: 'panache-gzipped',
+    name: 'panache-compressed',
     apply: 'build',
     writeBundle({ dir }, bundle) {
       for (const name of Object.keys(bundle)) {
-        const file = `${dir}/${name}`;
-        writeFileSync(`${file}.gz`, gzip(readFileSync(file)));
+        if (name.replace(/^assets\/|\.js$/g, '') in files) continue;
+        const file = `${dir}/${name}`, bytes = readFileSync(file);
+        writeFileSync(`${file}.br`, brotliCompressSync(bytes,
+          { params: { [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } }));
       }
     },
   };
@@ -111,7 +117,7 @@ function gzipped(): Plugin {
 
 export default defineConfig({
   base: './',
-  plugins: [virtualModules(), lateScripts(), licences(), plainScript(), gzipped()],
+  plugins: [virtualModules(), lateScripts(), licences(), plainScript(), compressed()],
   build: {
     outDir: `${root}build/web`,
     emptyOutDir: true,

@@ -217,10 +217,10 @@ std::string header(const std::string& answer, const std::string& name) {
   return answer.substr(begin, answer.find("\r\n", begin) - begin);
 }
 
-TEST_F(ViewVerb, sends_the_stored_gzip_and_nothing_that_the_browser_has) {
+TEST_F(ViewVerb, sends_what_is_stored_compressed_and_nothing_that_the_browser_has) {
   write("web/main.js", "let plain;");
-  write("web/main.js.gz", "as stored");
-  write("web/alone.js.gz", "without an original");
+  write("web/main.js.br", "as stored");
+  write("web/alone.js.br", "without an original");
   const int port = serve_page();
   ASSERT_GT(port, 0);
   const std::string host = "Host: 127.0.0.1:" + std::to_string(port) + "\r\n";
@@ -228,23 +228,23 @@ TEST_F(ViewVerb, sends_the_stored_gzip_and_nothing_that_the_browser_has) {
     return ask(port,
                "GET " + path + " HTTP/1.1\r\n" + host + headers + "Connection: close\r\n\r\n");
   };
-  for (const std::string wanted : {"gzip, deflate, br", "br,gzip", "gzip;q=0.5"}) {
+  for (const std::string wanted : {"gzip, deflate, br", "br,gzip", "br;q=0.5"}) {
     const std::string packed = answer("/main.js", "Accept-Encoding: " + wanted + "\r\n");
     EXPECT_TRUE(packed.ends_with("\r\n\r\nas stored")) << packed;
-    EXPECT_EQ(header(packed, "Content-Encoding"), "gzip");
+    EXPECT_EQ(header(packed, "Content-Encoding"), "br");
     EXPECT_EQ(header(packed, "Vary"), "Accept-Encoding");
     EXPECT_EQ(header(packed, "Content-Type"), "text/javascript; charset=utf-8");
   }
   for (const std::string wanted :
-       {"", "Accept-Encoding: br\r\n", "Accept-Encoding: gzip;q=0\r\n"}) {
+       {"", "Accept-Encoding: gzip\r\n", "Accept-Encoding: br;q=0\r\n"}) {
     const std::string plain = answer("/main.js", wanted);
     EXPECT_TRUE(plain.ends_with("\r\n\r\nlet plain;")) << plain;
     EXPECT_EQ(header(plain, "Content-Encoding"), "");
   }
-  EXPECT_EQ(status(answer("/main.js.gz", "")), "HTTP/1.1 404");
-  EXPECT_EQ(status(answer("/alone.js", "Accept-Encoding: gzip\r\n")), "HTTP/1.1 404");
+  EXPECT_EQ(status(answer("/main.js.br", "")), "HTTP/1.1 404");
+  EXPECT_EQ(status(answer("/alone.js", "Accept-Encoding: br\r\n")), "HTTP/1.1 404");
 
-  const std::string accepts = "Accept-Encoding: gzip\r\n";
+  const std::string accepts = "Accept-Encoding: br\r\n";
   const std::string tag = header(answer("/main.js", accepts), "ETag");
   const std::string plain_tag = header(answer("/main.js", ""), "ETag");
   EXPECT_EQ(tag.size(), 18u);

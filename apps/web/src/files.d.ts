@@ -1,7 +1,8 @@
-declare module 'virtual:panache-sizes' {
-  /** The bytes of assets/NAME.js of each packed file. */
-  const sizes: Record<'wasm' | 'model' | 'walker' | 'remover' | 'neutral', number>;
-  export default sizes;
+declare module 'virtual:panache-files' {
+  /** The name in assets, and the bytes. */
+  const files: Record<'wasm' | 'model' | 'walker' | 'remover' | 'neutral',
+    { file: string; size: number }>;
+  export default files;
 }
 
 declare module 'virtual:panache-removable' {

@@ -1,8 +1,8 @@
-// Loads what the page needs later than its script: files that the build packed, and libraries. A page
-// opened from disk may neither fetch files nor import modules, so all of them are plain scripts.
-// vite.config.ts makes them.
+// Loads what the page needs later than its script: files and libraries. A page opened from disk may
+// neither fetch files nor import modules, so libraries are plain scripts, and files are there both as
+// they are and packed as scripts. vite.config.ts makes them.
 
-import sizes from 'virtual:panache-sizes';
+import files from 'virtual:panache-files';
 
 import { PanacheError } from '../package/index.js';
 import { element } from './dom';
@@ -11,17 +11,17 @@ interface Late {
   zip: { zipSync(files: Record<string, Uint8Array>): Uint8Array };
   gif: typeof import('gifenc');
 }
-export type Packed = keyof typeof sizes;
+export type Packed = keyof typeof files;
 
 const pathOf = (name: string) => `./assets/${name}.js`;
-const failed = (name: string) =>
-  new PanacheError(`${pathOf(name)} did not load; try again, or reload the page`);
+const failed = (path: string) =>
+  new PanacheError(`${path} did not load; try again, or reload the page`);
 
 function load(name: string): Promise<void> {
   return new Promise((done, fail) => {
     const script = element('script', { src: pathOf(name) });
     script.addEventListener('load', () => done());
-    script.addEventListener('error', () => fail(failed(name)));
+    script.addEventListener('error', () => fail(failed(pathOf(name))));
     document.head.append(script);
   });
 }
@@ -33,39 +33,35 @@ export async function late<Name extends keyof Late>(name: Name): Promise<Late[Na
   return loaded();
 }
 
-/** The bytes of a packed file. `onShare` gets the share that has arrived, 0 to 1. */
+/** The bytes of a file. `onShare` gets the share that has arrived, 0 to 1. */
 export async function packed(name: Packed, onShare: (share: number) => void = () => {}):
     Promise<ArrayBuffer> {
-  const text = location.protocol === 'file:' ? await runPacked(name)
-    : await fetchPacked(name, onShare);
+  const bytes = location.protocol === 'file:' ? await unpacked(name)
+    : await fetched(files[name], onShare);
   onShare(1);
-  return unpack(text);
+  return bytes;
 }
 
-/** assets/NAME.js is packed_NAME='...'. */
-async function runPacked(name: Packed): Promise<string> {
-  await load(name);
-  return (window as unknown as Record<string, string>)[`packed_${name}`];
-}
-/** The same text, but its arrival can be followed. */
-async function fetchPacked(name: Packed, onShare: (share: number) => void): Promise<string> {
-  const answer = await fetch(pathOf(name)).catch(() => null);
-  if (!answer?.ok || !answer.body) throw failed(name);
-  const reader = answer.body.getReader(), decoder = new TextDecoder();
-  const parts: string[] = [];
+async function fetched({ file, size }: { file: string; size: number },
+  onShare: (share: number) => void): Promise<ArrayBuffer> {
+  const path = `./assets/${file}`;
+  const answer = await fetch(path).catch(() => null);
+  if (!answer?.ok || !answer.body) throw failed(path);
+  const reader = answer.body.getReader();
+  const bytes = new Uint8Array(size);
   for (let count = 0; ;) {
-    const { done, value } = await reader.read().catch(() => { throw failed(name); });
-    if (done) break;
-    parts.push(decoder.decode(value, { stream: true }));
-    onShare(Math.min(1, (count += value.length) / sizes[name]));
+    const { done, value } = await reader.read().catch(() => { throw failed(path); });
+    if (done && count === size) return bytes.buffer;
+    if (done || count + value.length > size) throw failed(path);
+    bytes.set(value, count);
+    onShare((count += value.length) / size);
   }
-  const text = parts.join('');
-  return text.slice(text.indexOf("'") + 1, text.lastIndexOf("'"));
 }
 
-/** gzip in base64. */
-async function unpack(base64: string): Promise<ArrayBuffer> {
-  const text = atob(base64);
+/** assets/NAME.js is packed_NAME='...', gzip in base64. */
+async function unpacked(name: Packed): Promise<ArrayBuffer> {
+  await load(name);
+  const text = atob((window as unknown as Record<string, string>)[`packed_${name}`]);
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));

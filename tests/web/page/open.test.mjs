@@ -3,7 +3,7 @@ import { readdir, readFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { gunzipSync } from 'node:zlib';
+import { brotliDecompressSync } from 'node:zlib';
 
 import { frames, nativeHashes, pageFolder, setStyle, start, styledParts } from './browser.mjs';
 
@@ -22,7 +22,7 @@ test('the page moves after opening, from any path', async () => {
 test('the walker walks while the styles are still on their way', async () => {
   let release;
   const held = new Promise((done) => (release = done));
-  const tab = await site.open('old=1.5&view=over', { route: ['**/model.js', async (route) => {
+  const tab = await site.open('old=1.5&view=over', { route: ['**/panache-int8.safetensors', async (route) => {
     await held;
     await route.continue();
   }] });
@@ -44,10 +44,10 @@ test('the walker walks while the styles are still on their way', async () => {
 });
 
 test('a load that fails says so', async () => {
-  for (const name of ['wasm', 'model']) {
-    const tab = await site.open('neutral', { route: [`**/${name}.js`, (route) => route.abort()],
+  for (const name of ['panache.wasm', 'panache-int8.safetensors']) {
+    const tab = await site.open('neutral', { route: [`**/${name}`, (route) => route.abort()],
       fails: true });
-    await tab.getByText(`assets/${name}.js did not load; try again, or reload the page`).waitFor();
+    await tab.getByText(`assets/${name} did not load; try again, or reload the page`).waitFor();
     await tab.close();
   }
 });
@@ -89,21 +89,23 @@ test('three hundred styled frames have the same bits in the browser and natively
 });
 
 // What comes late is not counted: src/late.ts.
-test('the first load is under 1.38 MB compressed, model included', async () => {
-  const late = ['gif.js', 'neutral.js', 'remover.js', 'zip.js'];
+test('the first load is under 1.2 MB compressed, model included', async () => {
+  const late = ['gif.js', 'neutral.safetensors', 'remover-int8.safetensors', 'zip.js'];
+  const fromDisk = ['model.js', 'neutral.js', 'remover.js', 'walker.js', 'wasm.js'];
   const files = (await readdir(pageFolder, { recursive: true, withFileTypes: true }))
     .filter((entry) => entry.isFile() && entry.name !== 'licences.txt');
   let bytes = 0;
   for (const { path, name } of files) {
-    if (name.endsWith('.gz') || late.includes(name)) continue;
-    const packed = await readFile(join(path, `${name}.gz`));
-    assert.deepEqual(gunzipSync(packed), await readFile(join(path, name)), name);
+    if (name.endsWith('.br') || [...late, ...fromDisk].includes(name)) continue;
+    const packed = await readFile(join(path, `${name}.br`));
+    assert.deepEqual(brotliDecompressSync(packed), await readFile(join(path, name)), name);
     bytes += packed.length;
   }
   console.log(`first load: ${bytes} bytes`);
-  assert.ok(bytes < 1.38e6, `${bytes} bytes`);
-  for (const name of late) {
-    assert.ok(!site.requests.some((request) => request.endsWith(name)), `${name} is asked for`);
+  assert.ok(bytes < 1.2e6, `${bytes} bytes`);
+  for (const name of [...late, ...fromDisk]) {
+    assert.ok(!site.requests.some((request) => request.startsWith('http') &&
+      request.endsWith(`/${name}`)), `${name} is asked for`);
   }
 });
 

@@ -33,7 +33,7 @@ async function drop(name, page = tab) {
   await dropFiles(page, '#view', [[name, readFileSync(at(name))]]);
   await page.waitForFunction((file) => window.page.source.file?.name === file, name);
 }
-const loads = () => site.requests.filter((request) => request.endsWith('/assets/remover.js')).length;
+const loads = () => site.requests.filter((request) => request.endsWith('/assets/remover-int8.safetensors')).length;
 /** The largest distance between a joint of the input and the same of the output now, metres. */
 const change = (page = tab) => page.evaluate(() => {
   const { player } = window.page.source;
