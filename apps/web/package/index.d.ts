@@ -305,7 +305,7 @@ export class Panache {
   /** The bytes of a style file. */
   extractStyle(name: string): Uint8Array;
   removeStyle(name: string): void;
-  /** Reads a .bvh, .glb, .gltf (self-contained), .vrm or .vrma, by the extension of `name`. */
+  /** Reads a .bvh, .glb, .gltf (self-contained), .vrm, .vrma or .fbx, by the extension of `name`. */
   openFile(bytes: ArrayBuffer | Uint8Array, name: string, options?: {
     /** Frames per second, if the file's rate is wrong or missing. */
     fps?: number;

@@ -137,9 +137,9 @@ export class Panache {
 
   openFile(bytes, name, { fps = 0 } = {}) {
     const extension = (/\.[^.]*$/.exec(name)?.[0] ?? '').toLowerCase();
-    if (!['.bvh', '.glb', '.gltf', '.vrm', '.vrma'].includes(extension)) {
+    if (!['.bvh', '.glb', '.gltf', '.vrm', '.vrma', '.fbx'].includes(extension)) {
       throw new PanacheError(
-        `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), found ` +
+        `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .fbx), found ` +
           (extension ? `the extension '${extension}'` : 'no extension'));
     }
     checkBytes(bytes, name);

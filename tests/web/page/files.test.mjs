@@ -358,7 +358,7 @@ test('a wrong file is refused with the library\'s sentence, and the old one goes
   writeFileSync(at('notes.txt'), 'no motion');
   await choose('notes.txt');
   await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('notes'));
-  assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), ' +
+  assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .fbx), ' +
     'found the extension \'.txt\'');
   writeFileSync(at('cut.glb'), readFileSync(at('walk.glb')).subarray(0, 500));
   await choose('cut.glb');
