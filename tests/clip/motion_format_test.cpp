@@ -34,9 +34,10 @@ TEST(MotionFormat, what_one_writes_it_reads) {
     ASSERT_TRUE(by_name.ok()) << by_name.error().message;
     EXPECT_EQ((*by_name)->clip().rotations, (*file)->clip().rotations);
   }
-  EXPECT_EQ(parse_motion("", "walk.c3d").error().message,
-            "walk.c3d: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx), found the "
-            "extension '.c3d'");
+  EXPECT_EQ(
+      parse_motion("", "walk.c3d").error().message,
+      "walk.c3d: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx), found the "
+      "extension '.c3d'");
   EXPECT_EQ(written, 3);
 }
 
