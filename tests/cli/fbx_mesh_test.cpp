@@ -30,7 +30,16 @@ std::string with_triangle(std::string text, size_t model) {
   return text;
 }
 
+// Assimp writes the root as a matrix, by columns.
 Affine of_node(const Json& node) {
+  if (node.contains("matrix")) {
+    const auto m = node["matrix"].get<std::vector<double>>();
+    Affine out;
+    for (size_t row = 0; row < 3; ++row) {
+      for (size_t column = 0; column < 4; ++column) out[row][column] = m[4 * column + row];
+    }
+    return out;
+  }
   const auto v = node.value("translation", std::vector<double>{0, 0, 0});
   const auto s = node.value("scale", std::vector<double>{1, 1, 1});
   const auto q = node.value("rotation", std::vector<double>{0, 0, 0, 1});
