@@ -135,7 +135,7 @@ void share_bind_pose(aiScene& scene) {
 // glTF expects weights that sum to one, in sets of four. Keeps the four heaviest of each vertex; a
 // vertex without any follows the mesh's first joint.
 void fit_weights(aiMesh& mesh) {
-  constexpr size_t kMost = 4;
+  constexpr size_t kMaxJoints = 4;
   if (mesh.mNumBones == 0) return;
   std::vector<std::vector<std::pair<float, unsigned>>> corners(mesh.mNumVertices);
   for (unsigned b = 0; b < mesh.mNumBones; ++b) {
@@ -153,7 +153,7 @@ void fit_weights(aiMesh& mesh) {
     if (corner.empty()) corner.emplace_back(1.0f, 0u);
     std::stable_sort(corner.begin(), corner.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
-    corner.resize(std::min(corner.size(), kMost));
+    corner.resize(std::min(corner.size(), kMaxJoints));
     double sum = 0;  // Double, because the floats may be huge.
     for (const auto& [weight, bone] : corner) sum += weight;
     for (const auto& [weight, bone] : corner) {

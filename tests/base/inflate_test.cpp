@@ -1,4 +1,4 @@
-// zlib streams of other programs are unpacked, and damaged ones are refused.
+// zlib streams of other programs are unpacked, and damaged ones are rejected.
 
 #include "base/inflate.h"
 
@@ -54,7 +54,7 @@ TEST(Inflate, unpacks_codes_of_both_kinds_and_stored_bytes) {
   EXPECT_EQ(inflate(stored, 3), "abc");
 }
 
-TEST(Inflate, refuses_another_size_and_every_cut) {
+TEST(Inflate, rejects_another_size_and_every_cut) {
   for (const std::string& stream : {kTimes, kLetters}) {
     const size_t size = stream == kTimes ? 320 : 45;
     EXPECT_FALSE(inflate(stream, size - 1));
@@ -66,7 +66,7 @@ TEST(Inflate, refuses_another_size_and_every_cut) {
   }
 }
 
-TEST(Inflate, refuses_every_flipped_bit_but_those_of_the_level) {
+TEST(Inflate, rejects_every_flipped_bit_but_those_of_the_level) {
   for (const std::string& stream : {kTimes, kLetters}) {
     for (size_t bit = 0; bit < 8 * stream.size(); ++bit) {
       std::string flipped = stream;

@@ -135,10 +135,15 @@ TEST(FbxRead, every_part_of_the_chain_counts_for_joints_and_props_in_text_and_bi
       test::make_fbx_scene(kChain, {{"Take", {{"BaseLayer", {}, kChainCurves}}}});
   std::vector<std::vector<ScenePlace>> places;
   for (int f = 0; f <= 10; ++f) places.push_back(chain_at(kChain, kChainCurves, f));
-  for (const std::string& bytes :
-       {text, test::to_binary_fbx7(text, 7400, false), test::to_binary_fbx7(text, 7500, true),
-        test::make_fbx_scene(kChain, {{"Take", {{"BaseLayer", {}, kChainCurves}}}},
-                             {.reversed = true})}) {
+  std::vector<std::string> files = {
+      text, test::make_fbx_scene(kChain, {{"Take", {{"BaseLayer", {}, kChainCurves}}}},
+                                 {.reversed = true})};
+  for (const int version : {7100, 7200, 7300, 7400, 7500, 7600, 7700}) {
+    for (const bool packed : {false, true}) {
+      files.push_back(test::to_binary_fbx7(text, version, packed));
+    }
+  }
+  for (const std::string& bytes : files) {
     const auto file = read_fbx(bytes);
     ASSERT_TRUE(file);
     EXPECT_EQ(file->clip_names(), std::vector<std::string>{"Take"});

@@ -47,8 +47,8 @@ Clip with_turn(Clip clip, const std::string& name, int first = 0) {
   return clip;
 }
 
-// A joint with pivots in a file with layers, scales, a mesh, a prop and morph weights, in the three
-// forms.
+// A joint with pivots in a file with layers, scales, a mesh, a prop and morph weights, as text
+// and in binary versions old and new, packed and not.
 std::vector<std::string> rich_files() {
   const std::vector<SceneModel> models = {
       {"root", -1, {{"Lcl Translation", {0, 90, 0}}, {"Lcl Scaling", {2, 2, 2}}}},
@@ -86,7 +86,8 @@ std::vector<std::string> rich_files() {
       "\tGeometry: 1500, \"Geometry::\", \"Mesh\" {\n\t\tVertices: *9 {\n\t\t\ta: "
       "0,0,0,1,0,0,0,1.25,0\n\t\t}\n\t\tPolygonVertexIndex: *3 {\n\t\t\ta: 0,1,-3\n\t\t}\n\t}\n";
   text.insert(text.find("\tModel: 2000"), mesh);
-  return {text, test::to_binary_fbx7(text, 7400, true), test::to_binary_fbx7(text, 7500, false)};
+  return {text, test::to_binary_fbx7(text, 7100, true), test::to_binary_fbx7(text, 7400, false),
+          test::to_binary_fbx7(text, 7500, false), test::to_binary_fbx7(text, 7700, true)};
 }
 
 TEST(FbxWrite, an_unchanged_file_keeps_its_bytes) {
