@@ -69,14 +69,17 @@ void add_motions(const FbxScene& fbx, const std::vector<std::string>& names, aiS
     scene.mAnimations[scene.mNumAnimations++] = animation;
     animation->mName = motion.name;
     animation->mTicksPerSecond = 1;
-    animation->mChannels = new aiNodeAnim*[std::max<size_t>(1, motion.frames.size())];
+    std::vector<aiNodeAnim*> channels;
     for (const auto& [node, frames] : motion.frames) {
       if (names[node].empty() || frames.empty()) continue;
       const double duration = static_cast<double>(frames.size() - 1) * motion.frame_time;
       animation->mDuration = std::max(animation->mDuration, duration);
-      animation->mChannels[animation->mNumChannels++] =
-          make_channel(names[node], frames, motion.frame_time);
+      channels.push_back(make_channel(names[node], frames, motion.frame_time));
     }
+    if (channels.empty()) continue;  // Assimp frees no array without channels.
+    animation->mNumChannels = static_cast<unsigned>(channels.size());
+    animation->mChannels = new aiNodeAnim*[channels.size()];
+    std::copy(channels.begin(), channels.end(), animation->mChannels);
   }
 }
 

@@ -16,6 +16,10 @@ class FbxTextParser {
   Result<void> read(FbxNode& root) {
     if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;
     root.begin = at_;
+    if (const size_t zero = text_.find('\0'); zero != text_.npos) {
+      return Error{fbx_position(text_, zero, name_) +
+                   ": expected text, found a byte of 0; is the file damaged?"};
+    }
     if (auto good = read_children(root, 0); !good) return good;
     if (!is_end()) return error("the end of the file");  // An unmatched closing brace.
     root.end = at_;
@@ -83,7 +87,7 @@ class FbxTextParser {
   Result<void> read_values(FbxNode& node) {
     for (skip_space(); !is_end(); skip_space()) {
       if (here() == ',') {
-        ++at_;
+        node.end = ++at_;  // Also without a value behind it: what replaces the node replaces it.
       } else if (here() == '"') {
         const size_t end = text_.find('"', at_ + 1);
         if (end == std::string_view::npos) return error("a string with another '\"' at its end");

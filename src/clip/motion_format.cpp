@@ -10,6 +10,7 @@
 #include "clip/acclaim.h"
 #include "clip/bvh.h"
 #include "clip/fbx.h"
+#include "clip/fbx_encode.h"
 #include "clip/gltf.h"
 #include "clip/rest_axes.h"
 #include "clip/text_cursor.h"
@@ -43,6 +44,8 @@ std::string write_glb(const Clip& clip, const std::string& name, const Placement
 
 std::string write_fbx(const Clip& clip, const std::string& name, const Placement& placement,
                       const SkinnedBody*) {
+  assert(kWritesFbx);
+  if (!kWritesFbx) return "";
   return format_fbx(clip.skeleton, {{&clip, name}}, static_cast<double>(placement.metres_per_unit),
                     placement.y_up);
 }

@@ -97,6 +97,16 @@ TEST(FbxSafety, what_is_no_fbx_is_told_so) {
             "in.fbx: expected joints (models of FBX), found none");
 }
 
+// Written with its first lines changed, such a file would not begin as FBX files do.
+TEST(FbxSafety, a_byte_of_0_anywhere_in_a_text_is_told_so) {
+  std::string text = test::format_fbx(test::walking_clip(30));
+  ASSERT_GT(text.size(), 5000u);
+  text.insert(text.rfind("\n\t") + 2, 1, '\0');
+  EXPECT_NE(rejection(text).find("expected text, found a byte of 0; is the file damaged?"),
+            std::string::npos)
+      << rejection(text);
+}
+
 TEST(FbxSafety, models_below_themselves_are_told_so) {
   std::string text = test::make_fbx_scene({{"a", -1, {}}, {"b", 0, {}}}, {});
   const std::string root = "\"OO\",2000,0";

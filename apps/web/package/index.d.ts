@@ -411,8 +411,8 @@ declare class Player {
   readonly coarseBody: Body;
   /** world = scale * rotate(toYUp, point in the file) - {0, floor, 0}. */
   readonly placement: { toYUp: number[]; scale: number; floor: number };
-  /** A file with this extension (".bvh", ".glb", ".vrma", or that of the file played): the whole
-   * clip with the current settings, or the last seconds of a walk, at most 20. */
+  /** A file with this extension (".bvh", ".glb", ".vrma", or that of the file played, except
+   * ".fbx"): the whole clip with the current settings, or the last seconds of a walk, at most 20. */
   exportAs(extension: string, options?: { which?: 'input' | 'styled'; seconds?: number }):
     Uint8Array;
   free(): void;

@@ -257,6 +257,17 @@ test('a .vrma opens, and several files become a list', async () => {
   await frames(tab);
 });
 
+test('the motion of an FBX plays, is restyled and saved, and goes onto a character', async () => {
+  panache('convert', 'short.bvh', '-o', 'short.fbx');
+  await tab.setInputFiles('#file', at('short.fbx'));
+  await tab.waitForFunction(() => window.page.source.file?.name === 'short.fbx');
+  assert.deepEqual(await tab.evaluate(() => window.page.source.file.clips.map((c) => c.frames)), [60]);
+  await frames(tab);
+  assert.match(panache('info', await save('BVH', '.bvh')), /60 frames/);
+  await tab.setInputFiles('#file', [at('short.fbx'), at('walk.glb')]);
+  await tab.waitForFunction(() => window.page.source.file?.name === 'short-on-walk.glb');
+});
+
 /** The GLB with an animation of a lamp before and one after its own. */
 function withLamp(bytes) {
   const length = bytes.readUInt32LE(12), rest = bytes.subarray(20 + length);
