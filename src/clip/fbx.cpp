@@ -33,8 +33,6 @@ class FbxFile final : public MotionFile {
   }
   std::string encode(std::span<const ClipEdit> edits, EditMode mode) const override {
     if (edits.empty()) return document_.tree.bytes();
-    assert(kWritesFbx);
-    if (!kWritesFbx) return "";
     return document_.is_version_6() ? encode_fbx6(document_, edits, mode)
                                     : encode_fbx(document_, edits, mode);
   }
@@ -75,7 +73,7 @@ Result<std::unique_ptr<MotionFile>> parse_fbx(std::string bytes, const std::stri
     for (const FbxStack& stack : document->stacks) {
       factors.push_back(1 / *options.fps / stack.clip.frame_time);
     }
-    if (document->is_version_6() || !kWritesFbx) {
+    if (document->is_version_6()) {
       for (FbxStack& stack : document->stacks) stack.clip.frame_time = 1 / *options.fps;
     } else {
       document =

@@ -10,8 +10,8 @@ namespace {
 
 // Bits of KeyAttrFlags.
 constexpr int64_t kConstantKey = 0x2, kCubicKey = 0x8;  // And 0x4: a straight line.
-constexpr int64_t kConstantNext = 0x100;          // Of a constant key.
-constexpr int64_t kUserTangents = 0x400 | 0x800;  // Slopes that the file states.
+constexpr int64_t kConstantNext = 0x100;                // Of a constant key.
+constexpr int64_t kUserTangents = 0x400 | 0x800;        // Slopes that the file states.
 constexpr int64_t kClampedTangents = 0x1000 | 0x4000;
 constexpr int64_t kWeightedRight = 0x1000000, kWeightedNextLeft = 0x2000000;
 constexpr float kWholeWeight = 9999;  // Weights are integers.

@@ -13,13 +13,6 @@
 
 namespace panache {
 
-// False in the page, which nobody asks to write FBX: a tenth of its code would be for that.
-#ifdef PANACHE_FBX_IS_READ_ONLY
-inline constexpr bool kWritesFbx = false;
-#else
-inline constexpr bool kWritesFbx = true;
-#endif
-
 // The file with the edits.
 std::string encode_fbx(const FbxDocument& document, std::span<const ClipEdit> edits, EditMode mode);
 // The file without its motions.

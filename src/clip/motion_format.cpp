@@ -10,7 +10,6 @@
 #include "clip/acclaim.h"
 #include "clip/bvh.h"
 #include "clip/fbx.h"
-#include "clip/fbx_encode.h"
 #include "clip/gltf.h"
 #include "clip/rest_axes.h"
 #include "clip/text_cursor.h"
@@ -42,13 +41,13 @@ std::string write_glb(const Clip& clip, const std::string& name, const Placement
                     body);
 }
 
+#ifndef PANACHE_LEAVES_OUT_FBX
 std::string write_fbx(const Clip& clip, const std::string& name, const Placement& placement,
                       const SkinnedBody*) {
-  assert(kWritesFbx);
-  if (!kWritesFbx) return "";
   return format_fbx(clip.skeleton, {{&clip, name}}, static_cast<double>(placement.metres_per_unit),
                     placement.y_up);
 }
+#endif
 
 constexpr MotionFormat kFormats[] = {
     {.extension = ".bvh",
@@ -78,11 +77,13 @@ constexpr MotionFormat kFormats[] = {
      .encoded_as = ".bvh",
      .fits_into = ".bvh",
      .one_motion = true},
+#ifndef PANACHE_LEAVES_OUT_FBX
     {.extension = ".fbx",
      .parse = parse_fbx,
      .write = write_fbx,
      .in_metres = true,
      .encoded_as = ".fbx"},
+#endif
 };
 
 std::span<const MotionFormat> known_formats = kFormats;

@@ -305,7 +305,7 @@ export class Panache {
   /** The bytes of a style file. */
   extractStyle(name: string): Uint8Array;
   removeStyle(name: string): void;
-  /** Reads a .bvh, .glb, .gltf (self-contained), .vrm, .vrma or .fbx, by the extension of `name`. */
+  /** Reads a .bvh, .glb, .gltf (self-contained), .vrm or .vrma, by the extension of `name`. */
   openFile(bytes: ArrayBuffer | Uint8Array, name: string, options?: {
     /** Frames per second, if the file's rate is wrong or missing. */
     fps?: number;
@@ -411,8 +411,8 @@ declare class Player {
   readonly coarseBody: Body;
   /** world = scale * rotate(toYUp, point in the file) - {0, floor, 0}. */
   readonly placement: { toYUp: number[]; scale: number; floor: number };
-  /** A file with this extension (".bvh", ".glb", ".vrma", or that of the file played, except
-   * ".fbx"): the whole clip with the current settings, or the last seconds of a walk, at most 20. */
+  /** A file with this extension (".bvh", ".glb", ".vrma", or that of the file played): the whole
+   * clip with the current settings, or the last seconds of a walk, at most 20. */
   exportAs(extension: string, options?: { which?: 'input' | 'styled'; seconds?: number }):
     Uint8Array;
   free(): void;

@@ -78,8 +78,7 @@ export class Exporter {
   /** The displayed motion as a file. */
   capture(which: 'input' | 'styled', seconds: number): File {
     const { source } = this.page;
-    const own = source.kind === 'clip' ? source.file.extension : '.bvh';
-    const extension = own === '.fbx' ? '.bvh' : own;  // FBX is only read here.
+    const extension = source.kind === 'clip' ? source.file.extension : '.bvh';
     const bytes = source.player.exportAs(extension, { which, seconds });
     return new File([bytes as BlobPart],
       `${which === 'input' ? this.#title : this.nameOf('')}${extension}`);

@@ -18,7 +18,7 @@ class Slot {
   file: MotionFile | null = null;
   #what = element('p', { class: 'what', role: 'status' }, 'Drop a clip here, or');
   #clips = element('select', { 'aria-label': 'Motion of the file', hidden: true });
-  #input = element('input', { type: 'file', accept: '.bvh,.glb,.gltf,.vrm,.vrma,.fbx', hidden: true });
+  #input = element('input', { type: 'file', accept: '.bvh,.glb,.gltf,.vrm,.vrma', hidden: true });
   #record = button('', () => this.attempt(() => this.#press()));
   #begin = 0;
   #timer = 0;

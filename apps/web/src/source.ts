@@ -108,7 +108,7 @@ export const titleOf = (name: string) => name.replace(/\.[^.]*$/, '');
 /** Whether it is a model or a style. */
 export const isModel = ({ name }: File) => /\.safetensors$/i.test(name);
 const isCharacter = (name: string) => /\.(glb|gltf|vrm)$/i.test(name);
-const isMotionAlone = (name: string) => /\.(bvh|vrma|fbx)$/i.test(name);
+const isMotionAlone = (name: string) => /\.(bvh|vrma)$/i.test(name);
 
 /** Combines a motion and a character that were dropped together into one file: the motion on the
  * character. Returns other files unchanged. */
@@ -130,7 +130,7 @@ export async function clipSource(file: MotionFile, bytes: ArrayBuffer, clip: num
     Promise<ClipSource> {
   const player = file.createPlayer(clip);
   let own: [SkinnedCharacter, SkinnedCharacter] | null = null;
-  if (!['.bvh', '.vrma', '.fbx'].includes(file.extension)) {
+  if (!['.bvh', '.vrma'].includes(file.extension)) {
     // Fall back to the mannequin if three.js cannot show the character.
     own = await loadSkinned(bytes, file, player).catch(() => null);
   }

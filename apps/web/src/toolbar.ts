@@ -105,7 +105,7 @@ export function buildFileControls(page: Page) {
   find('#file-controls').append(menu,
     act('back', 'Walker', 'Close the file and steer the walker again', () => page.use(walkSource(page.panache))),
     act('open', 'Open …',
-      'BVH, GLB, glTF, VRM, VRMA or FBX files, a model or a style; or drop them on the view',
+      'BVH, GLB, glTF, VRM or VRMA files, a model or a style; or drop them on the view',
       () => input.click()),
     ...saveMenu(page));
 }

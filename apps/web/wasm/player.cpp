@@ -232,11 +232,6 @@ Placement Player::placement() const {
 Result<std::string> Player::export_as(const std::string& extension,
                                       const std::string& file_extension, bool styled,
                                       double seconds) const {
-  if (extension == ".fbx") {
-    return Error{
-        "expected '.bvh', '.glb' or '.vrma' to export the motion as, found '.fbx', which "
-        "is only read here; `panache convert` writes it"};
-  }
   const Clip& clip = source_.clip();
   const Rig& rig = source_.rig();
   if (const auto& recording = shown(styled).recording) {

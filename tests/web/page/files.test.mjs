@@ -257,17 +257,6 @@ test('a .vrma opens, and several files become a list', async () => {
   await frames(tab);
 });
 
-test('the motion of an FBX plays, is restyled and saved, and goes onto a character', async () => {
-  panache('convert', 'short.bvh', '-o', 'short.fbx');
-  await tab.setInputFiles('#file', at('short.fbx'));
-  await tab.waitForFunction(() => window.page.source.file?.name === 'short.fbx');
-  assert.deepEqual(await tab.evaluate(() => window.page.source.file.clips.map((c) => c.frames)), [60]);
-  await frames(tab);
-  assert.match(panache('info', await save('BVH', '.bvh')), /60 frames/);
-  await tab.setInputFiles('#file', [at('short.fbx'), at('walk.glb')]);
-  await tab.waitForFunction(() => window.page.source.file?.name === 'short-on-walk.glb');
-});
-
 /** The GLB with an animation of a lamp before and one after its own. */
 function withLamp(bytes) {
   const length = bytes.readUInt32LE(12), rest = bytes.subarray(20 + length);
@@ -369,8 +358,12 @@ test('a wrong file is refused with the library\'s sentence, and the old one goes
   writeFileSync(at('notes.txt'), 'no motion');
   await choose('notes.txt');
   await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('notes'));
-  assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .fbx), ' +
+  assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), ' +
     'found the extension \'.txt\'');
+  writeFileSync(at('walk.fbx'), 'Kaydara');
+  await choose('walk.fbx');
+  await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('walk.fbx'));
+  assert.match(await alertText(), /^walk.fbx: is FBX, .* `panache view walk.fbx` shows it/);
   writeFileSync(at('cut.glb'), readFileSync(at('walk.glb')).subarray(0, 500));
   await choose('cut.glb');
   await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('cut'));
