@@ -162,17 +162,17 @@ TEST(FbxWrite, everything_but_the_curves_of_changed_joints_keeps_its_bytes) {
   }
 }
 
-TEST(FbxWrite, a_comma_behind_the_last_value_of_a_curve_goes_with_it) {
+TEST(FbxWrite, a_comma_behind_the_last_value_of_a_node_goes_with_it) {
   std::string text = rich_files().front();
-  const std::string curve = "AnimationCurve: ";
-  for (size_t at = 0; (at = text.find(curve, at)) != text.npos; at += curve.size()) {
-    text.insert(text.find(" {", at), ", Property: \"\"");
-  }
+  const size_t node = text.find("AnimationCurveNode: ");
+  text.insert(text.find(" {", node), ", Property: \"\"");
   const auto file = read_fbx(text);
   ASSERT_TRUE(file);
-  const Clip changed = with_turn(file->clip(), "shin");
-  const auto again = read_fbx(file->encode(changed, own_frames(changed)));
+  const Clip rest = file->rest();
+  const ClipEdit edit = {kNewClip, &rest, {}, "still"};
+  const auto again = read_fbx(file->encode({&edit, 1}, EditMode::replace));
   ASSERT_TRUE(again);
+  EXPECT_FALSE(again->clip().skeleton.joints.empty());
 }
 
 TEST(FbxWrite, frames_that_do_not_change_keep_the_numbers_of_the_file) {
