@@ -204,9 +204,15 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
 }
 
 std::unique_ptr<MotionFile> open_input(FileJob& file, const ReadOptions& options) {
+  if (file.bytes && becomes_glb(file.input, file.output)) {
+    throw Failure{
+        {file.input + ": is FBX, which becomes GLB if it is read by name; expected another "
+                      "format, or a file"},
+        kBadInput};
+  }
   auto motion = need(file.bytes ? find_format(formats(), extension_of(file.input))
                                       ->parse(*file.bytes, file.input, options)
-                                : open_motion(file.input, options));
+                                : open_motion(file.input, options, file.output));
   file.notes = motion->notes();
   return motion;
 }

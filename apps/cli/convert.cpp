@@ -43,8 +43,8 @@ std::vector<NewMotion> motions_in_place(const MotionFile& motion, const RigOptio
 std::string whole_file(const MotionFile& motion, const FileJob& file, const MotionFlags& verb,
                        const RigOptions& options) {
   const std::string from = extension_of(file.input);
-  const bool is_changed =
-      must_be_encoded(from) || verb.read.fps || motion.is_mended() || verb.in_place;
+  const bool is_changed = must_be_encoded(from) || becomes_glb(file.input, file.output) ||
+                          verb.read.fps || motion.is_mended() || verb.in_place;
   const std::vector<NewMotion> motions =
       verb.in_place ? motions_in_place(motion, options) : std::vector<NewMotion>();
   std::string bytes = is_changed   ? motion.encode(edits_of(motions), EditMode::replace)

@@ -1,5 +1,6 @@
 #pragma once
-// Reads FBX files through Assimp (Open Asset Import Library) and turns them into GLB.
+// Turns FBX files into GLB: meshes by Assimp (Open Asset Import Library), nodes and motions by our
+// own reader (clip/fbx.h).
 
 #include <string>
 #include <vector>
@@ -13,14 +14,13 @@ struct FbxAsGlb {
   std::vector<std::string> notes;  // See MotionFile::notes().
 };
 
-// The GLB of what Assimp recognises in the FBX file at `path`: nodes, meshes, skins, materials and
-// animations, in metres with +Y up. Pictures found neither in the file, nor at their path, nor next
-// to the file become white. Files that Assimp cannot read lose their meshes (fbx_scene.h), with a
-// note.
+// The GLB of the FBX file at `path`: nodes, meshes, skins, materials and animations, in metres with
+// +Y up. Pictures found neither in the file, nor at their path, nor next to the file become white.
+// Meshes that Assimp cannot read are left out, with a note.
 //
 // Assimp's readers have a history of memory errors, so they run in a child process with limits on
-// memory and time and no access to files or networks (sandbox.h): a damaged file can only cause an
-// error message. A build without Assimp always fails with a message.
+// memory and time and no access to files or networks (sandbox.h): a damaged file can only cost the
+// meshes. A build without Assimp always fails with a message.
 Result<FbxAsGlb> fbx_to_glb(const std::string& path);
 
 // The argument that makes this program the child process that reads the file named by the next

@@ -11,29 +11,11 @@
 namespace panache::cli {
 namespace {
 
-// An axis in the global settings: 0 x, 1 y, 2 z, with a sign.
-aiVector3D axis_of(const aiScene& scene, const std::string& name, int fallback) {
-  int axis = fallback, sign = 1;
-  scene.mMetaData->Get(name, axis);
-  scene.mMetaData->Get(name + "Sign", sign);
-  aiVector3D out;
-  out[static_cast<unsigned>(std::clamp(axis, 0, 2))] = sign < 0 ? -1.0f : 1.0f;
-  return out;
-}
-
 // Rotates the file's axes to x sideways and y up, and scales to metres.
-aiMatrix4x4 to_metres_y_up(const aiScene& scene) {
-  if (!scene.mMetaData) return {};
-  float centimetres = 1;
-  scene.mMetaData->Get("UnitScaleFactor", centimetres);
-  if (!(centimetres > 1e-9f && centimetres < 1e9f)) centimetres = 1;
-  const aiVector3D up = axis_of(scene, "UpAxis", 1);
-  aiVector3D side = axis_of(scene, "CoordAxis", 0);
-  if (std::abs(side * up) > 0) side = {up.y, up.z, up.x};  // The settings contradict each other.
-  const aiVector3D front = side ^ up;
-  const float s = centimetres * 0.01f;
-  return {side.x * s,  side.y * s,  side.z * s,  0, up.x * s, up.y * s, up.z * s, 0,
-          front.x * s, front.y * s, front.z * s, 0, 0,        0,        0,        1};
+aiMatrix4x4 to_metres_y_up(const FbxScene& fbx) {
+  const auto s = static_cast<float>(fbx.metres);
+  const auto q = fbx.to_y_up.as<float>();
+  return {aiVector3D(s, s, s), aiQuaternion(q.w, q.x, q.y, q.z), aiVector3D()};
 }
 
 // Parents before children.
@@ -79,26 +61,6 @@ void drop_idle_keys(aiNodeAnim& channel, const aiNode& node) {
   }
 }
 
-// Keys of several curves meant for one time may lie a tick apart, which vanishes in glTF's floats,
-// where times must increase. The last one is kept, as after a jump.
-template <class Key>
-void join_close_keys(Key* keys, unsigned& count, double ticks_per_second) {
-  constexpr double kSame = 1e-5;  // Seconds.
-  const auto seconds = [&](const Key& key) { return key.mTime / ticks_per_second; };
-  unsigned kept = 0;
-  for (unsigned i = 0; i < count; ++i) {
-    const bool is_new = kept == 0 || (seconds(keys[i]) - seconds(keys[kept - 1]) > kSame &&
-                                      static_cast<float>(seconds(keys[i])) >
-                                          static_cast<float>(seconds(keys[kept - 1])));
-    if (is_new) {
-      keys[kept++] = keys[i];
-    } else {
-      keys[kept - 1].mValue = keys[i].mValue;
-    }
-  }
-  count = kept;
-}
-
 // Whether all animations have keys for the node, so that its static transform is never used.
 bool is_always_animated(const aiScene& scene, const aiNode& node) {
   const auto has_keys = [&](const aiAnimation* animation) {
@@ -109,8 +71,6 @@ bool is_always_animated(const aiScene& scene, const aiNode& node) {
   };
   return scene.mNumAnimations > 0 && std::ranges::all_of(animations_of(scene), has_keys);
 }
-
-bool is_usable(const aiMatrix4x4& m) { return std::isnormal(m.Determinant()); }
 
 using Places = std::map<std::string, aiMatrix4x4>;  // World transforms, by node name.
 
@@ -156,24 +116,6 @@ void rest_as_bound(const aiScene& scene) {
   }
 }
 
-// Transforms the vertices of a mesh by `by`, and its bones' offsets by the inverse.
-void move_mesh(aiMesh& mesh, const aiMatrix4x4& by) {
-  const aiMatrix3x3 turn = aiMatrix3x3(aiMatrix4x4(by).Inverse().Transpose());
-  const auto move = [&](aiVector3D* points, aiVector3D* normals, unsigned count) {
-    for (unsigned i = 0; i < count; ++i) {
-      if (points) points[i] = by * points[i];
-      if (normals) normals[i] = (turn * normals[i]).NormalizeSafe();
-    }
-  };
-  move(mesh.mVertices, mesh.mNormals, mesh.mNumVertices);
-  for (unsigned i = 0; i < mesh.mNumAnimMeshes; ++i) {
-    move(mesh.mAnimMeshes[i]->mVertices, mesh.mAnimMeshes[i]->mNormals,
-         mesh.mAnimMeshes[i]->mNumVertices);
-  }
-  const aiMatrix4x4 back = aiMatrix4x4(by).Inverse();
-  for (aiBone* bone : bones_of(mesh)) bone->mOffsetMatrix *= back;
-}
-
 void share_bind_pose(aiScene& scene) {
   std::map<std::string, aiMatrix4x4> offsets;  // From the first mesh that has the bone.
   for (aiMesh* mesh : meshes_of(scene)) {
@@ -193,7 +135,7 @@ void share_bind_pose(aiScene& scene) {
 // glTF expects weights that sum to one, in sets of four. Keeps the four heaviest of each vertex; a
 // vertex without any follows the mesh's first joint.
 void fit_weights(aiMesh& mesh) {
-  constexpr size_t kMost = 4;
+  constexpr size_t kMaxJoints = 4;
   if (mesh.mNumBones == 0) return;
   std::vector<std::vector<std::pair<float, unsigned>>> corners(mesh.mNumVertices);
   for (unsigned b = 0; b < mesh.mNumBones; ++b) {
@@ -211,7 +153,7 @@ void fit_weights(aiMesh& mesh) {
     if (corner.empty()) corner.emplace_back(1.0f, 0u);
     std::stable_sort(corner.begin(), corner.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
-    corner.resize(std::min(corner.size(), kMost));
+    corner.resize(std::min(corner.size(), kMaxJoints));
     double sum = 0;  // Double, because the floats may be huge.
     for (const auto& [weight, bone] : corner) sum += weight;
     for (const auto& [weight, bone] : corner) {
@@ -280,22 +222,35 @@ void remove_scales(const aiScene& scene) {
 
 }  // namespace
 
-void repair_scene(aiScene& scene) {
+void move_mesh(aiMesh& mesh, const aiMatrix4x4& by) {
+  const aiMatrix3x3 turn = aiMatrix3x3(aiMatrix4x4(by).Inverse().Transpose());
+  const auto move = [&](aiVector3D* points, aiVector3D* normals, unsigned count) {
+    for (unsigned i = 0; i < count; ++i) {
+      if (points) points[i] = by * points[i];
+      if (normals) normals[i] = (turn * normals[i]).NormalizeSafe();
+    }
+  };
+  move(mesh.mVertices, mesh.mNormals, mesh.mNumVertices);
+  for (unsigned i = 0; i < mesh.mNumAnimMeshes; ++i) {
+    move(mesh.mAnimMeshes[i]->mVertices, mesh.mAnimMeshes[i]->mNormals,
+         mesh.mAnimMeshes[i]->mNumVertices);
+  }
+  const aiMatrix4x4 back = aiMatrix4x4(by).Inverse();
+  for (aiBone* bone : bones_of(mesh)) bone->mOffsetMatrix *= back;
+}
+
+void repair_scene(const FbxScene& fbx, aiScene& scene) {
   rest_as_bound(scene);
   std::map<std::string, const aiNode*> nodes;
   for (const aiNode* node : all_nodes(scene)) nodes.emplace(node->mName.C_Str(), node);
   for (const aiAnimation* animation : animations_of(scene)) {
-    const double ticks = animation->mTicksPerSecond > 0 ? animation->mTicksPerSecond : 1;
     for (aiNodeAnim* channel : channels_of(*animation)) {
-      join_close_keys(channel->mPositionKeys, channel->mNumPositionKeys, ticks);
-      join_close_keys(channel->mRotationKeys, channel->mNumRotationKeys, ticks);
-      join_close_keys(channel->mScalingKeys, channel->mNumScalingKeys, ticks);
       const auto node = nodes.find(channel->mNodeName.C_Str());
       if (node != nodes.end()) drop_idle_keys(*channel, *node->second);
     }
   }
   share_bind_pose(scene);
-  scene.mRootNode->mTransformation = to_metres_y_up(scene) * scene.mRootNode->mTransformation;
+  scene.mRootNode->mTransformation = to_metres_y_up(fbx) * scene.mRootNode->mTransformation;
   remove_scales(scene);
   for (aiMesh* mesh : meshes_of(scene)) fit_weights(*mesh);
 }

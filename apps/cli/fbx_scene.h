@@ -1,28 +1,30 @@
 #pragma once
-// Scenes of FBX files, read by Assimp or, if Assimp cannot read them, by our own parser.
+// Scenes of FBX files: meshes as Assimp reads them, nodes and motions as our own reader does.
 
+#include <cmath>
 #include <memory>
-#include <string>
-#include <string_view>
 
 #include <assimp/scene.h>
 
-#include "base/result.h"
+#include "clip/fbx_nodes.h"
 
 namespace panache::cli {
 
-struct FbxScene {
-  std::unique_ptr<aiScene> scene;  // As Assimp builds them; null if there is no model.
-  bool lacks_meshes = false;       // The file has meshes, but the scene has none.
-};
-
-// The models and motions of FBX text, version 6 or 7, without meshes. Messages begin with `path`.
-Result<FbxScene> fbx_text_scene(std::string_view text, const std::string& path);
+// fbx_nodes.cpp: a scene of the nodes and motions alone.
+std::unique_ptr<aiScene> make_scene(const FbxScene& fbx);
+// Gives a scene with meshes and no animations the nodes' names, transforms and motions. A mesh
+// stays where it is in the world, as does what it is bound to.
+void set_nodes(const FbxScene& fbx, aiScene& scene);
 
 // Prepares a scene for glTF: puts the file's unit and axes on the root (metres, +Y up); sets the
 // rest pose of skinned joints to the bind pose; removes redundant animation keys; gives all meshes
 // one bind pose, as Assimp writes them with one skin; bakes node scales into the transforms below;
 // and limits each vertex to four joints, with weights that sum to one.
-void repair_scene(aiScene& scene);
+void repair_scene(const FbxScene& fbx, aiScene& scene);
+
+// Whether a matrix can be inverted.
+inline bool is_usable(const aiMatrix4x4& m) { return std::isnormal(m.Determinant()); }
+// Transforms the vertices of a mesh by `by`, and its bones' offsets by the inverse.
+void move_mesh(aiMesh& mesh, const aiMatrix4x4& by);
 
 }  // namespace panache::cli

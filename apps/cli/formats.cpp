@@ -51,15 +51,6 @@ class NotedFile : public MotionFile {
   std::vector<std::string> notes_;
 };
 
-Result<std::unique_ptr<MotionFile>> read_fbx(const std::string& path, const ReadOptions& options) {
-  Result<FbxAsGlb> fbx = fbx_to_glb(path);
-  if (!fbx) return fbx.error();
-  Result<std::unique_ptr<MotionFile>> file = parse_gltf(std::move(fbx->glb), path, options);
-  if (!file || fbx->notes.empty()) return file;
-  return std::unique_ptr<MotionFile>(
-      std::make_unique<NotedFile>(*std::move(file), std::move(fbx->notes)));
-}
-
 // Formats with their own body in T-pose, to which a motion has to be retargeted.
 struct OwnBody {
   std::string_view extension;
@@ -76,9 +67,6 @@ std::string write_vrma(const Clip& clip, const std::string& name, const Placemen
                        const SkinnedBody*) {
   return format_vrma(clip, name);
 }
-
-constexpr MotionFormat kFbx = {
-    .extension = ".fbx", .read = read_fbx, .encoded_as = ".glb", .fits_into = ".glb"};
 
 const MotionFormat kNpz = {.extension = ".npz",
                            .parse = parse_npz,
@@ -100,18 +88,6 @@ const MotionFormat& format_of(std::string_view extension) {
   static constexpr MotionFormat kNone;
   const MotionFormat* format = find_format(formats(), extension);
   return format ? *format : kNone;
-}
-
-// How to make the requested FBX file from a GLB.
-std::string fbx_by_blender(const std::string& fbx) {
-  const std::string glb = std::filesystem::path(fbx).replace_extension(".glb").string();
-  return "write " + glb +
-         ", which Blender turns into FBX: blender -b --python-expr \"import bpy; "
-         "bpy.ops.wm.read_homefile(use_empty=True); bpy.context.scene.render.fps = 30; "
-         "bpy.ops.import_scene.gltf(filepath='" +
-         glb + "'); bpy.ops.export_scene.fbx(filepath='" + fbx +
-         "', add_leaf_bones=False, bake_anim_simplify_factor=0)\" (30: the frames a second of the "
-         "motion)";
 }
 
 // A body with the proportions of the rig of `clip`.
@@ -136,8 +112,8 @@ std::span<const MotionFormat> formats() {
     std::vector<MotionFormat> list(motion_formats().begin(), motion_formats().end());
     for (MotionFormat& format : list) {
       if (format.extension == ".vrma") format.write = write_vrma;
+      if (format.extension == ".fbx") format.fits_into = ".glb";  // See open_motion().
     }
-    list.push_back(kFbx);
     list.push_back(kNpz);
     return list;
   }();
@@ -179,6 +155,20 @@ std::string list_writable_names() { return list_without(1); }
 
 bool has_writer(const std::string& extension) { return format_of(extension).write; }
 
+bool becomes_glb(const std::string& input, const std::string& output) {
+  return extension_of(input) == ".fbx" && extension_of(output) == ".glb";
+}
+
+Result<std::unique_ptr<MotionFile>> read_fbx_as_glb(const std::string& path,
+                                                    const ReadOptions& options) {
+  Result<FbxAsGlb> fbx = fbx_to_glb(path);
+  if (!fbx) return fbx.error();
+  Result<std::unique_ptr<MotionFile>> file = parse_gltf(std::move(fbx->glb), path, options);
+  if (!file || fbx->notes.empty()) return file;
+  return std::unique_ptr<MotionFile>(
+      std::make_unique<NotedFile>(*std::move(file), std::move(fbx->notes)));
+}
+
 Result<void> check_format(const std::string& input, const std::string& output) {
   const std::string from = extension_of(input), to = extension_of(output);
   const MotionFormat* format = find_format(formats(), from);
@@ -187,8 +177,7 @@ Result<void> check_format(const std::string& input, const std::string& output) {
   if (has_own && to == from) return {};
   return Error{output + ": expected a name that ends in " +
                (has_own && !format->write ? from + ", " : "") + list_without(0) +
-               ", or a folder (with a '/' at its end)" +
-               (to == ".fbx" ? "; " + fbx_by_blender(output) : "")};
+               ", or a folder (with a '/' at its end)"};
 }
 
 Result<void> check_fits(const MotionFile& file, std::span<const int> clips,

@@ -20,8 +20,8 @@ std::span<const MotionFormat> formats();
 extern const MeshoptDecoder kMeshoptDecoder;
 
 // Whether a file with extension `input` keeps its format, and so all its content besides motion, if
-// written with extension `output`. All glTF extensions count as one format, and so does FBX, which
-// has become GLB by then.
+// written with extension `output`. All glTF extensions count as one format. GLB holds what is in
+// FBX, too (becomes_glb()).
 bool keeps_format(const std::string& input, const std::string& output);
 
 // Puts the bytes of a file that keeps its format into the container for the output's extension. A
@@ -36,6 +36,12 @@ bool must_be_encoded(const std::string& extension);
 std::string list_writable_names();
 // Whether a motion can be written with this extension.
 bool has_writer(const std::string& extension);
+
+// Whether an output shows the meshes of an FBX file, which only Assimp reads.
+bool becomes_glb(const std::string& input, const std::string& output);
+// An FBX file as the GLB that Assimp makes of it.
+Result<std::unique_ptr<MotionFile>> read_fbx_as_glb(const std::string& path,
+                                                    const ReadOptions& options);
 
 // Rejects an output whose extension the input cannot be converted to.
 Result<void> check_format(const std::string& input, const std::string& output);

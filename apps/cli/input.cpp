@@ -20,8 +20,9 @@ bool is_motion_extension(const std::string& extension) { return find_format(form
 
 std::string motion_extensions() { return list_extensions(formats()); }
 
-Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path,
-                                                const ReadOptions& options) {
+Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path, const ReadOptions& options,
+                                                const std::string& output) {
+  if (becomes_glb(path, output)) return read_fbx_as_glb(path, options);
   return read_motion(path, formats(), options);
 }
 

@@ -19,9 +19,11 @@ bool is_motion_extension(const std::string& extension);
 // ".bvh, .glb, ...", for messages and help.
 std::string motion_extensions();
 
-// Reads a motion file of any known format. FBX is converted to GLB.
+// Reads a motion file of any known format. `output` is the name of the file that is to be made of
+// it, or empty.
 Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path,
-                                                const ReadOptions& options = {});
+                                                const ReadOptions& options = {},
+                                                const std::string& output = "");
 
 // Gives `verb` --fps; `options` must outlive it.
 void add_read_options(CLI::App& verb, ReadOptions& options);

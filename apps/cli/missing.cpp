@@ -22,7 +22,9 @@ namespace {
 
 #ifdef PANACHE_NO_FBX
 Result<FbxAsGlb> fbx_to_glb(const std::string& path) {
-  return Error{path + ": this build reads no FBX files; build with libassimp-dev"};
+  return Error{
+      path +
+      ": this build makes no GLB of FBX files; build with libassimp-dev, or write .fbx or .bvh"};
 }
 int read_fbx_as_child(const std::string& path) { return fail(fbx_to_glb(path).error(), kBadInput); }
 #endif

@@ -98,8 +98,9 @@ void name_new_motions(FileJob& file, const std::vector<std::string>& has, const 
   file.added.push_back(text);
 }
 
-Result<CharacterFile> CharacterFile::open(const OntoFlags& flags) {
-  Result<std::unique_ptr<MotionFile>> file = open_motion(flags.file);
+Result<CharacterFile> CharacterFile::open(const OntoFlags& flags, const BatchFlags& batch) {
+  const std::string output = batch.to.empty() ? batch.output.value_or("") : "a." + batch.to;
+  Result<std::unique_ptr<MotionFile>> file = open_motion(flags.file, {}, output);
   if (!file) return file.error();
   Result<RigOptions> options = read_rig_options({{}, "", flags.map, ""});
   if (!options) return options.error();
@@ -108,12 +109,12 @@ Result<CharacterFile> CharacterFile::open(const OntoFlags& flags) {
   const Clip* motion = moves ? &(*file)->clip(first_body_motion(**file, *options)) : nullptr;
   Result<std::pair<Clip, Rig>> body = find_body((*file)->rest(), motion, *options);
   if (!body) return located(flags.file, body.error());
-  return CharacterFile(flags.file, *std::move(file), *std::move(options), std::move(body->first),
-                       std::move(body->second));
+  return CharacterFile(flags.file, becomes_glb(flags.file, output), *std::move(file),
+                       *std::move(options), std::move(body->first), std::move(body->second));
 }
 
 std::string CharacterFile::extension() const {
-  return std::string(find_format(formats(), extension_of(path_))->encoded_as);
+  return is_glb_ ? ".glb" : std::string(find_format(formats(), extension_of(path_))->encoded_as);
 }
 
 Result<void> CharacterFile::check_outputs(const std::vector<FileJob>& files) const {

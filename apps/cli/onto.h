@@ -68,11 +68,11 @@ void name_new_motions(FileJob& file, const std::vector<std::string>& has, const 
 
 class CharacterFile {
  public:
-  // Fails if the file cannot be read or holds no humanoid.
-  static Result<CharacterFile> open(const OntoFlags& flags);
+  // Fails if the file cannot be read or holds no humanoid. `batch`: where the outputs go.
+  static Result<CharacterFile> open(const OntoFlags& flags, const BatchFlags& batch);
 
   const std::string& path() const { return path_; }
-  // The extension of output files: .glb for .fbx, else the character file's.
+  // The extension of output files: the character file's, unless FBX becomes GLB.
   std::string extension() const;
   // Rejects outputs whose format the character cannot be written in.
   Result<void> check_outputs(const std::vector<FileJob>& files) const;
@@ -91,15 +91,17 @@ class CharacterFile {
   std::vector<std::string> clip_names() const { return file_->clip_names(); }
 
  private:
-  CharacterFile(std::string path, std::unique_ptr<MotionFile> file, RigOptions options, Clip clip,
-                Rig rig)
+  CharacterFile(std::string path, bool is_glb, std::unique_ptr<MotionFile> file, RigOptions options,
+                Clip clip, Rig rig)
       : path_(std::move(path)),
+        is_glb_(is_glb),
         file_(std::move(file)),
         options_(std::move(options)),
         clip_(std::move(clip)),
         rig_(std::move(rig)) {}
 
   std::string path_;
+  bool is_glb_;  // An FBX file has become GLB.
   std::shared_ptr<const MotionFile> file_;
   RigOptions options_;
   Clip clip_;  // Defines the rig: the rest pose, or a motion if the rest pose is unusable.

@@ -15,7 +15,7 @@ struct FilePair {
   std::string input, output;
 };
 
-// `name` with its extension replaced by `extension` unless that is empty, and .fbx by .glb, as FBX
+// `name` with its extension replaced by `extension` unless that is empty, and .amc by .bvh, as AMC
 // is not written.
 std::filesystem::path with_extension(std::filesystem::path name, const std::string& extension);
 

@@ -68,7 +68,7 @@ int retarget_files(const MotionFlags& flags, const RetargetOptions& options,
                    const std::string& doing, const std::string& done) {
   need(check_rig_flags(flags.rig), kBadUsage);
   need(check_read_options(flags.read), kBadUsage);
-  const CharacterFile character = need(CharacterFile::open(flags.onto));
+  const CharacterFile character = need(CharacterFile::open(flags.onto, flags.batch));
   std::vector<FileJob> files = plan_batch(
       flags.batch,
       {character.extension(), "on-" + std::filesystem::path(character.path()).stem().string()}, "");
@@ -97,7 +97,7 @@ void add_retarget(CLI::App& app, int& exit_code) {
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->footer(
-      "The output is the character's file with the motions in it (FBX becomes GLB); as\n"
+      "The output is the character's file with the motions in it; as\n"
       ".bvh, or .glb from a BVH, its joints alone. docs/retargeting.md explains how.\n\n"
       "Examples:\n"
       "  panache retarget walk.bvh --onto hero.glb -o hero-walk.glb\n"

@@ -35,7 +35,6 @@ Result<StdinMotion> read_stdin() {
     return Error{std::string("stdin: cannot be read: ") + std::strerror(errno)};
   if (bytes.empty()) return Error{"stdin: is empty; expected a motion file"};
   const std::string extension = extension_of_content(bytes);
-  if (extension == ".fbx") return Error{"stdin: holds an FBX file, which is read by name only"};
   if (extension.empty()) {
     return Error{"stdin: expected a BVH, glTF, GLB, VRM, VRMA or NPZ file, found something else"};
   }

@@ -293,7 +293,8 @@ int stylize(const StylizeOptions& options) {
   how.stylizer.sides = need(parse_sides(options.sides, *wanted.model), kBadUsage);
   wanted.removal = read_removal(options.removal);
   const std::optional<CharacterFile>& onto = wanted.onto;
-  if (!options.onto.file.empty()) wanted.onto = need(CharacterFile::open(options.onto));
+  if (!options.onto.file.empty())
+    wanted.onto = need(CharacterFile::open(options.onto, options.batch));
   std::vector<FileJob> files =
       plan_batch(options.batch, {onto ? onto->extension() : "", name_styles(options)}, path);
   if (onto) need(onto->check_outputs(files), kBadUsage);
@@ -341,8 +342,8 @@ void add_stylize(CLI::App& app, int& exit_code) {
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->footer(
-      "Rig, joint names, channel order and frame rate are kept. An FBX file is written\n"
-      "as GLB. The output may be of another format (docs/formats.md).\n\n"
+      "Rig, joint names, channel order and frame rate are kept. The output may be of\n"
+      "another format (docs/formats.md).\n\n"
       "Examples:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh\n"
       "  panache stylize walk.bvh --style old=1           (into walk-old.bvh)\n"

@@ -29,11 +29,15 @@ struct Served {
 
 // Makes the file self-contained; converts FBX to GLB.
 Served read_served(const std::string& path) {
-  const std::unique_ptr<MotionFile> motion = need(open_motion(path));
   const std::string name = fs::path(path).filename().string(), extension = extension_of(path);
-  if (must_be_encoded(extension)) {
+  const std::string as_glb = name + ".glb";
+  const std::unique_ptr<MotionFile> motion = need(open_motion(path, {}, as_glb));
+  const bool is_glb = becomes_glb(path, as_glb);
+  if (is_glb || must_be_encoded(extension)) {
     const std::string_view encoded_as = find_format(formats(), extension)->encoded_as;
-    return Served{encoded_as == extension ? name : name + std::string(encoded_as),
+    return Served{is_glb                    ? as_glb
+                  : encoded_as == extension ? name
+                                            : name + std::string(encoded_as),
                   motion->encode({}, EditMode::replace)};
   }
   return {name, need(read_file(path))};

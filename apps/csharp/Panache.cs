@@ -278,7 +278,7 @@ public sealed class Clip {
   public float[] Translations;  // [frames * joints * 3]
   public int FrameCount => Rotations.Length / (4 * Skeleton.JointCount);
 
-  /// Loads a motion of a BVH, GLB, glTF or VRM file, by default the first that moves the humanoid.
+  /// Loads a motion of a BVH, GLB, glTF, VRM or FBX file, by default the first that moves the humanoid.
   /// Pass framesPerSecond if the file's rate is wrong or missing.
   public static Clip Load(string path, int? motion = null, double? framesPerSecond = null) {
     byte[] bytes = File.ReadAllBytes(path);

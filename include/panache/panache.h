@@ -527,8 +527,8 @@ PANACHE_API panache_status panache_styles_extract(const void* model_bytes, size_
 
 /* ---- Motion files ---------------------------------------------------------------------------- */
 
-/* Reads and writes BVH, GLB, glTF, VRM and VRMA files as the program does; AMC files are written as
- * BVH. Not in the WebAssembly module. */
+/* Reads and writes BVH, GLB, glTF, VRM, VRMA and FBX files as the program does; AMC files are
+ * written as BVH. Not in the WebAssembly module. */
 
 /* A whole motion file: joints, motions, and everything else that is kept when it is written again.
  * Immutable. */
@@ -540,7 +540,7 @@ typedef struct panache_motion_file panache_motion_file;
 PANACHE_API panache_status panache_motion_file_create(const void* bytes, size_t size,
                                                       const char* name, panache_motion_file** out);
 /* The same for a file whose rate is wrong or missing: it is read and written at this rate (0.01 to
- * 10000). In glTF the keys of all animations that move joints are rescaled. */
+ * 10000). In glTF and FBX the keys of all animations that move joints are rescaled. */
 PANACHE_API panache_status panache_motion_file_create_at_rate(const void* bytes, size_t size,
                                                               const char* name,
                                                               double frames_per_second,

@@ -208,7 +208,7 @@ inline StyledClip retarget(const panache_clip& clip, const Skeleton& onto,
   return StyledClip(panache_retarget_clip, &clip, onto.get(), options);
 }
 
-// A motion file as a whole: BVH, GLB, glTF, VRM, VRMA or AMC, by the extension of `name`.
+// A motion file as a whole: BVH, GLB, glTF, VRM, VRMA, AMC or FBX, by the extension of `name`.
 class MotionFile : public Object<panache_motion_file, panache_motion_file_destroy> {
  public:
   MotionFile(const void* bytes, size_t size, const std::string& name)

@@ -9,6 +9,7 @@
 #include "base/lower_case.h"
 #include "clip/acclaim.h"
 #include "clip/bvh.h"
+#include "clip/fbx.h"
 #include "clip/gltf.h"
 #include "clip/rest_axes.h"
 #include "clip/text_cursor.h"
@@ -40,6 +41,14 @@ std::string write_glb(const Clip& clip, const std::string& name, const Placement
                     body);
 }
 
+#ifndef PANACHE_LEAVES_OUT_FBX
+std::string write_fbx(const Clip& clip, const std::string& name, const Placement& placement,
+                      const SkinnedBody*) {
+  return format_fbx(clip.skeleton, {{&clip, name}}, static_cast<double>(placement.metres_per_unit),
+                    placement.y_up);
+}
+#endif
+
 constexpr MotionFormat kFormats[] = {
     {.extension = ".bvh",
      .parse = parse_bvh,
@@ -68,6 +77,13 @@ constexpr MotionFormat kFormats[] = {
      .encoded_as = ".bvh",
      .fits_into = ".bvh",
      .one_motion = true},
+#ifndef PANACHE_LEAVES_OUT_FBX
+    {.extension = ".fbx",
+     .parse = parse_fbx,
+     .write = write_fbx,
+     .in_metres = true,
+     .encoded_as = ".fbx"},
+#endif
 };
 
 std::span<const MotionFormat> known_formats = kFormats;
@@ -79,10 +95,7 @@ Result<const MotionFormat*> format_of(const std::string& path,
   return Error{
       path + ": expected a motion file (" + list_extensions(formats) + "), found " +
       (extension.empty() ? "no extension" : "the extension " + panache::quoted(extension)) +
-      (extension == ".fbx" ? "; 'panache convert IN.fbx -o OUT.glb' makes a GLB of it, and "
-                             "'panache view IN.fbx' shows it"
-       : extension == ".safetensors" ? ", which models and styles have"
-                                     : "")};
+      (extension == ".safetensors" ? ", which models and styles have" : "")};
 }
 
 }  // namespace

@@ -47,19 +47,16 @@ bool Stretch::can_undo() const {
   return std::abs(determinant()) > kFlat * longest * longest * longest;
 }
 
-Vec3 Stretch::apply(Vec3 place) const {
-  const Vec3d exact = place.as<double>();
-  return (even_ ? exact * size_ : times(exact)).as<float>();
-}
+Vec3d Stretch::apply(Vec3d place) const { return even_ ? place * size_ : times(place); }
 
-Vec3 Stretch::undo(Vec3 stretched) const {
-  const Vec3d s = stretched.as<double>();
-  if (even_) return (s / size_).as<float>();
+Vec3d Stretch::undo(Vec3d stretched) const {
+  const Vec3d s = stretched;
+  if (even_) return s / size_;
   // Cramer's rule.
   const Vec3d across = {dot(cross(columns_[1], columns_[2]), s),
                         dot(cross(columns_[2], columns_[0]), s),
                         dot(cross(columns_[0], columns_[1]), s)};
-  return (across / determinant()).as<float>();
+  return across / determinant();
 }
 
 Stretch Stretch::below(Quat turn, const Stretch& own) const {

@@ -34,9 +34,11 @@ class Stretch {
   // Whether the stretch can be inverted.
   bool can_undo() const;
 
-  Vec3 apply(Vec3 place) const;
+  Vec3d apply(Vec3d place) const;
+  Vec3 apply(Vec3 place) const { return apply(place.as<double>()).as<float>(); }
   // The position that apply() maps to `stretched`; requires can_undo().
-  Vec3 undo(Vec3 stretched) const;
+  Vec3d undo(Vec3d stretched) const;
+  Vec3 undo(Vec3 stretched) const { return undo(stretched.as<double>()).as<float>(); }
 
   // The stretch of a node below, which rotates by `turn` and stretches by `own`.
   Stretch below(Quat turn, const Stretch& own) const;

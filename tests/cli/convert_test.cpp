@@ -173,8 +173,8 @@ TEST_F(Convert, a_folder_needs_a_format) {
   write("takes/b.glb", to_glb(small_gltf()));
   expect_rejected({"takes", "-o", "out"}, 2,
                   "--output out: is a folder; expected --to with it, as in --to bvh");
-  expect_rejected({"takes", "-o", "out", "--to", "fbx"}, 2,
-                  "--to: expected bvh, glb, vrma or npz, found 'fbx'");
+  expect_rejected({"takes", "-o", "out", "--to", "c3d"}, 2,
+                  "--to: expected bvh, glb, vrma, fbx or npz, found 'c3d'");
   expect_rejected({"walk.bvh", "-o", "out.glb", "--to", "bvh"}, 2,
                   "--to bvh: out.glb has another format");
   convert({"takes", "-o", "out", "--to", "bvh"});

@@ -1,9 +1,9 @@
 // FBX characters with mirrored and uneven scales are styled and converted as the same character
 // without them is, whichever reader reads them.
 
-#include "cli/binary_fbx6.h"
+#include "clip/binary_fbx.h"
 #include "cli/fbx_program_test.h"
-#include "cli/make_fbx6.h"
+#include "clip/make_fbx6.h"
 #include "cli/same_positions.h"
 
 namespace panache::test {

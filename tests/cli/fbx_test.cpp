@@ -1,11 +1,13 @@
-// FBX files, which come in through Assimp and go on as GLB.
+// FBX files: as they are, and as GLB with the meshes that Assimp reads.
 
+#include <array>
 #include <csignal>
 
 #include <nlohmann/json.hpp>
 
 #include "cli/fbx_program_test.h"
 #include "cli/same_positions.h"
+#include "clip/bvh.h"
 #include "clip/make_gltf.h"
 
 namespace panache::test {
@@ -124,14 +126,114 @@ TEST_F(Fbx, info_shows_it) {
       << ran.out;
 }
 
-TEST_F(Fbx, stylize_gives_a_glb_with_both_motions) {
+TEST_F(Fbx, stylize_gives_a_file_of_its_kind_or_a_glb_with_both_motions) {
   write("walk.fbx", format_fbx(walking_clip(40)));
   const Ran ran = run({"stylize", "walk.fbx", "--style", "old=1", "-o", "out/"});
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_EQ(entries("out"), std::vector<std::string>{"walk.glb"});
-  const auto file = read_motion(path("out/walk.glb"));
-  ASSERT_TRUE(file.ok()) << file.error().message;
-  EXPECT_EQ((*file)->clip_names(), (std::vector<std::string>{"Take 001 (old 1)", "Take 001"}));
+  EXPECT_EQ(run({"stylize", "walk.fbx", "--style", "old=1", "-o", "out/walk.glb"}).exit, 0);
+  EXPECT_EQ(entries("out"), (std::vector<std::string>{"walk.fbx", "walk.glb"}));
+  const auto fbx = read_motion(path("out/walk.fbx")), glb = read_motion(path("out/walk.glb"));
+  ASSERT_TRUE(fbx.ok()) << fbx.error().message;
+  ASSERT_TRUE(glb.ok()) << glb.error().message;
+  const std::vector<std::string> expected = {"Take 001 (old 1)", "Take 001"};
+  EXPECT_EQ((*fbx)->clip_names(), expected);
+  EXPECT_EQ((*glb)->clip_names(), expected);
+  // Networks multiply rounding by about ten.
+  expect_same_positions((*fbx)->clip(), (*glb)->clip(), 10 * kNear);
+}
+
+// Two walks, side by side, of joints with equal names.
+Clip two_walks() {
+  const Clip walk = walking_clip(40);
+  Clip out;
+  out.frame_time = walk.frame_time;
+  const auto count = static_cast<int>(walk.joints());
+  for (int figure = 0; figure < 2; ++figure) {
+    for (Joint joint : walk.skeleton.joints) {
+      if (joint.parent >= 0) joint.parent += figure * count;
+      out.skeleton.joints.push_back(joint);
+    }
+  }
+  out.resize(walk.frames);
+  for (int f = 0; f < walk.frames; ++f) {
+    for (size_t j = 0; j < out.joints(); ++j) {
+      const size_t of = j % walk.joints();
+      // The second is half a cycle late, or early.
+      const int at = j < walk.joints() ? f : (f + 15) % walk.frames;
+      out.pose(f).rotations[j] = walk.pose(at).rotations[of];
+      out.pose(f).translations[j] = walk.pose(f).translations[of];
+      if (j == walk.joints()) out.pose(f).translations[j].x += 1;
+    }
+  }
+  return out;
+}
+
+// How far the joints of a name, of the first figure and of the second, are from where they were,
+// along each axis by its weight.
+std::pair<float, float> moved(const Clip& from, const Clip& to, const std::string& name,
+                              Vec3 weights = {1, 1, 1}) {
+  EXPECT_EQ(from.frames, to.frames);
+  std::array<float, 2> most = {};
+  std::vector<Quat> rotations(from.joints());
+  std::vector<Vec3> before(from.joints()), after(from.joints());
+  for (int f = 0; f < std::min(from.frames, to.frames); ++f) {
+    world_pose(from.skeleton, from.pose(f), {rotations, before});
+    world_pose(to.skeleton, to.pose(f), {rotations, after});
+    for (size_t j = 0; j < from.joints(); ++j) {
+      const std::string& called = from.skeleton.joints[j].name;
+      if (called != name && called != name + " (2)") continue;
+      float& of = most[called == name ? 0 : 1];
+      const Vec3 by = after[j] - before[j];
+      of = std::max(of, length(Vec3{by.x * weights.x, by.y * weights.y, by.z * weights.z}));
+    }
+  }
+  return {most[0], most[1]};
+}
+
+TEST_F(Fbx, every_figure_is_styled_and_stays_where_it_was_though_names_are_equal) {
+  write("made.fbx", format_fbx(two_walks()));
+  write("other.fbx",
+        *read_file(PANACHE_SOURCE_DIR "/tests/fixtures/fbx/two-figures-equal-names.fbx"));
+  for (const std::string from : {"made.fbx", "other.fbx"}) {
+    SCOPED_TRACE(from);
+    const Ran ran = run({"stylize", from, "--style", "old=1", "--force", "-o", "old.fbx"});
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+    ASSERT_EQ(run({"stylize", from, "--style", "old=1", "--force", "-o", "old.glb"}).exit, 0);
+    const auto in = read_motion(path(from)), out = read_motion(path("old.fbx")),
+               glb = read_motion(path("old.glb"));
+    ASSERT_TRUE(in.ok() && out.ok() && glb.ok());
+    expect_same_positions((*out)->clip(), (*glb)->clip(), 10 * kNear);
+    const auto hands = moved((*in)->clip(), (*out)->clip(), "leftHand");
+    const auto hips = moved((*in)->clip(), (*out)->clip(), "hips", {1, 0, 0});
+    // A style bends arms by centimetres; figures are a metre apart, sideways.
+    EXPECT_GT(hands.first, 0.02f);
+    EXPECT_GT(hands.second, 0.02f);
+    EXPECT_LT(hips.first, 0.3f);
+    EXPECT_LT(hips.second, 0.3f);
+  }
+}
+
+TEST_F(Fbx, strength_0_and_convert_keep_every_byte) {
+  write("walk.fbx", format_fbx(walking_clip(40)));
+  ASSERT_EQ(run({"stylize", "walk.fbx", "--style", "old=0", "--replace", "-o", "same.fbx"}).exit,
+            0);
+  EXPECT_TRUE(read("same.fbx") == read("walk.fbx"));
+  ASSERT_EQ(run({"convert", "walk.fbx", "-o", "copy.fbx"}).exit, 0);
+  EXPECT_TRUE(read("copy.fbx") == read("walk.fbx"));
+}
+
+TEST_F(Fbx, other_formats_become_fbx_and_fbx_becomes_any) {
+  const Clip walk = walking_clip(40);
+  write("walk.bvh", format_bvh(walk));
+  ASSERT_TRUE(converted("walk.bvh", "out.fbx"));
+  const auto file = converted("out.fbx", "out.bvh");
+  ASSERT_TRUE(file);
+  expect_same_positions(walk, file->clip(), kNear);
+  // A character in FBX gets a motion and stays FBX.
+  ASSERT_EQ(run({"retarget", "walk.bvh", "--onto", "walk.fbx", "-o", "on.fbx"}).exit, 0);
+  const auto on = read_motion(path("on.fbx"));
+  ASSERT_TRUE(on.ok()) << on.error().message;
+  EXPECT_EQ((*on)->clip_names(), std::vector<std::string>{"walk"});
 }
 
 TEST_F(Fbx, a_skeleton_without_motion_has_nothing_to_restyle) {
@@ -151,7 +253,7 @@ TEST_F(Fbx, a_damaged_file_gets_a_message) {
     write("bad.fbx", good.substr(0, size));
     const Ran ran = run({"info", "bad.fbx"});
     EXPECT_EQ(ran.exit, 1) << size << ran.out;
-    EXPECT_TRUE(ran.err.starts_with("panache: bad.fbx: ")) << ran.err;
+    EXPECT_TRUE(ran.err.starts_with("panache: bad.fbx:")) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
   write("bad.fbx", "no such thing");

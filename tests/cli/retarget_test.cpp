@@ -129,7 +129,7 @@ TEST_F(RetargetVerb, many_motions_go_into_files_of_the_characters_format) {
 TEST_F(RetargetVerb, bad_wishes_are_rejected) {
   expect_rejected(
       {"retarget", "walk.bvh", "--onto", "hero.glb", "-o", "out.txt"}, 2,
-      "out.txt: expected a name that ends in .bvh, .glb, .vrma or .npz, or a folder (with a "
+      "out.txt: expected a name that ends in .bvh, .glb, .vrma, .fbx or .npz, or a folder (with a "
       "'/' at its end)");
   expect_rejected({"retarget", "walk.bvh", "--onto", "none.glb", "-o", "out.glb"}, 1,
                   "none.glb: cannot be read: No such file or directory");
@@ -139,7 +139,7 @@ TEST_F(RetargetVerb, bad_wishes_are_rejected) {
       "another: joints without keys get none\npanache: out.bvh: takes one motion, found 2 "
       "motions; --clip NAME picks one");
   expect_rejected({"retarget", "walk.bvh", "--onto", "hero.glb", "--to", "amc", "-o", "out/"}, 2,
-                  "--to: expected bvh, glb, vrma or npz, found 'amc'");
+                  "--to: expected bvh, glb, vrma, fbx or npz, found 'amc'");
   write("dog.bvh",
         "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n"
         "{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n");

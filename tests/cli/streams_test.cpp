@@ -92,11 +92,9 @@ TEST_F(Streams, what_cannot_be_is_rejected) {
   };
   write("empty", "");
   write("text", "a text");
-  write("some.fbx", "Kaydara FBX Binary  ");
   expect_rejected("empty", {}, "stdin: is empty; expected a motion file");
   expect_rejected("text", {},
                   "stdin: expected a BVH, glTF, GLB, VRM, VRMA or NPZ file, found something else");
-  expect_rejected("some.fbx", {}, "stdin: holds an FBX file, which is read by name only");
   expect_rejected("walk.bvh", {"walk.bvh"},
                   "- (standard input) cannot be combined with other inputs; found 2 inputs");
   expect_rejected("walk.bvh", {"--json"},

@@ -31,7 +31,7 @@ TEST(MotionFile, an_unknown_extension_is_answered_with_the_known_ones) {
     ASSERT_TRUE(write_file(folder + name, "", true).ok());
     EXPECT_EQ(read_rejection(folder + name),
               folder + name +
-                  ": expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found " +
+                  ": expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx), found " +
                   found);
   }
   std::filesystem::remove_all(folder);

@@ -5,10 +5,12 @@
 #include <cstdio>
 
 #include "base/file.h"
-#include "cli/binary_fbx6.h"
-#include "cli/make_fbx.h"
-#include "cli/make_fbx6.h"
+#include "clip/binary_fbx.h"
+#include "clip/make_fbx.h"
+#include "clip/make_fbx6.h"
+#include "clip/make_fbx_scene.h"
 #include "clip/bvh.h"
+#include "clip/fbx.h"
 #include "clip/gltf.h"
 #include "clip/make_acclaim.h"
 #include "clip/smpl.h"
@@ -84,6 +86,56 @@ std::string deflated(const std::string& npz) {
 }
 #endif
 
+// Chains of pivots, layers of every kind, and models that are below themselves.
+void add_fbx_scenes() {
+  const std::vector<test::SceneModel> models = {
+      {"hips", -1, {{"Lcl Translation", {0, 90, 0}}, {"InheritType", {0}}}},
+      {"spine",
+       0,
+       {{"Lcl Translation", {0, 20, 0}},
+        {"RotationPivot", {2, 3, -4}},
+        {"ScalingPivot", {4, -3, 6}},
+        {"Lcl Scaling", {1.5, 0.5, -1}},
+        {"PreRotation", {20, -30, 40}},
+        {"PostRotation", {-15, 25, 5}},
+        {"RotationOrder", {4}}}},
+      {"head", 1, {{"Lcl Translation", {0, 20, 0}}, {"InheritType", {2}}}}};
+  const test::SceneCurve line = {{{0, 0}, {3, 40}}}, step = {{{0, 5}, {2, 9}}, 2};
+  const test::SceneCurve cubic = {{{0, 0}, {3, 30}}, 0x8 | 0x400 | 0x1000000, {30, -60, 1, 0}};
+  const std::vector<test::SceneStack> stacks = {
+      {"walk",
+       {{"BaseLayer", {}, {{0, 0, {{line, step, cubic}}}, {1, 1, {{line, {}, cubic}}}}},
+        {"Layer2", {{"BlendMode", 0}, {"Weight", 50}}, {{1, 1, {{step, line, {}}}}}},
+        {"Layer3",
+         {{"BlendMode", 2}, {"RotationAccumulationMode", 0}},
+         {{1, 1, {{line, line, line}}}, {2, 2, {{line, line, line}}}}}}}};
+  const std::string text = test::make_fbx_scene(models, stacks);
+  add("fbx/chain", text);
+  add("fbx/chain-packed", test::to_binary_fbx7(text, 7400, true));
+  add("fbx/shuffled", test::make_fbx_scene(models, stacks, {.reversed = true, .up_axis = 2}));
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string out = text;
+    const size_t at = out.find(from);
+    if (at == out.npos) std::exit(1);
+    return out.replace(at, from.size(), to);
+  };
+  add("fbx/cycle", with("C: \"OO\",2000,0", "C: \"OO\",2000,2002"));
+  add("fbx/below-itself", with("C: \"OO\",2001,2000", "C: \"OO\",2001,2001"));
+  // Objects 5000 to 5003 are the stack, its base layer, and a curve node with its first curve.
+  const std::string root = "C: \"OO\",2000,0";
+  add("fbx/layer-in-itself", with(root, root + "\n\tC: \"OO\",5001,5001\n\tC: \"OO\",5000,5001"));
+  add("fbx/node-in-two-layers",
+      with(root, root + "\n\tC: \"OO\",5002,5000\n\tC: \"OP\",5002," + "2001, \"Lcl Scaling\""));
+  add("fbx/curve-as-weight",
+      with(root, root + "\n\tC: \"OP\",5002,5001, \"Weight\"\n\tC: \"OP\",5003,5003, \"d|X\""));
+  add("fbx/short-chain",
+      with("\"RotationPivot\", \"\", \"\", \"\",2,3,-4", "\"RotationPivot\", \"\", \"\", \"\",2"));
+  add("fbx/far-pivot", with("\"ScalingPivot\", \"\", \"\", \"\",4,-3,6",
+                            "\"ScalingPivot\", \"\", \"\", \"\",1e9,-1e300,nan"));
+  add("fbx/flat", with("\"\",1.5,0.5,-1", "\"\",0,0.5,-1e-9"));
+  add("fbx/keys-back", with("KeyTime: *2 {\n\t\t\ta: 0,", "KeyTime: *2 {\n\t\t\ta: 99999999999,"));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -151,12 +203,17 @@ int main(int argc, char** argv) {
       "short.bvh,old,walk,1,0,train\nwalk.bvh,\"a b\",walk,1,0,test\n" +
           std::string(1, '\0') + "name,from,description\nold,old a,bent\n");
   add("vmc/calls", std::string(300, '\x37') + std::string(100, '\x01'));
-  add("fbx/calls", std::string(300, '\x37') + std::string(100, '\x01'));
+  add("scene/calls", std::string(300, '\x37') + std::string(100, '\x01'));
   const Clip steps = first_joints(walk, 3);
   const std::string six = test::Fbx6Maker(steps, 2, 1, {{"hips", {-1, 1, 1}}}).make();
   add("fbx/text6", six);
   add("fbx/binary6", test::to_binary_fbx6(six));
-  add("fbx/text7", test::format_fbx(steps));
+  const std::string seven = test::format_fbx(steps);
+  add("fbx/text7", seven);
+  add("fbx/packed", test::to_binary_fbx7(seven, 7400, true));
+  add("fbx/wide", test::to_binary_fbx7(seven, 7500, false));
+  add("fbx/new", format_fbx(steps.skeleton, {{&steps, "walk"}}, 1, Quat{}));
+  add_fbx_scenes();
   add("text/strengths", "\3seconds,old\n0,0\n1.5,1e0\n");
   return 0;
 }

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "base/file.h"
-#include "cli/make_fbx.h"
+#include "clip/make_fbx.h"
 #include "make_clip.h"
 
 int main(int argc, char** argv) {

@@ -324,7 +324,7 @@ def test_errors_are_the_librarys_sentences(model, walk, walk_file, shipped, tmp_
     assert rejection(panache.read, tmp_path / 'none.bvh') == \
         f'{tmp_path}/none.bvh: cannot be read: No such file or directory'
     assert rejection(panache.read, shipped).startswith(
-        f'{shipped}: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found')
+        f'{shipped}: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx), found')
     assert 'safetensors' in rejection(panache.Model, b'nothing')
     assert rejection(panache.Model, 'no-such').startswith('no-such: cannot be read')
     assert rejection(panache.stylize, model, walk, {'odl': 1}).startswith(

@@ -675,6 +675,12 @@ test('gestures are listed, triggered and played as often as in the takes', async
   panache.setModel(own);
 });
 
+test('an FBX gets the commands that show and convert it', () => {
+  assert.throws(() => panache.openFile(new Uint8Array(10), 'a/walk.FBX'), { message:
+    'a/walk.FBX: is FBX, which is not read here; `panache view a/walk.FBX` shows it, and ' +
+    '`panache convert a/walk.FBX -o a/walk.glb` makes a file that is read' });
+});
+
 test('what is no skeleton, strength, key or file is rejected with what was found', async () => {
   const { joints, made } = skeleton();
   const without = (key, i = 3, value = undefined) =>

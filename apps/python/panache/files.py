@@ -1,4 +1,4 @@
-"""Motion files: BVH, GLB, glTF and VRM."""
+"""Motion files: BVH, GLB, glTF, VRM and FBX."""
 
 import operator
 import os

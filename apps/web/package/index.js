@@ -137,6 +137,10 @@ export class Panache {
 
   openFile(bytes, name, { fps = 0 } = {}) {
     const extension = (/\.[^.]*$/.exec(name)?.[0] ?? '').toLowerCase();
+    if (extension === '.fbx') {
+      throw new PanacheError(`${name}: is FBX, which is not read here; \`panache view ${name}\` ` +
+        `shows it, and \`panache convert ${name} -o ${name.slice(0, -4)}.glb\` makes a file that is read`);
+    }
     if (!['.bvh', '.glb', '.gltf', '.vrm', '.vrma'].includes(extension)) {
       throw new PanacheError(
         `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), found ` +

@@ -179,7 +179,7 @@ TEST_F(OodFiles, where_nothing_is_out_of_distribution_a_message_says_so) {
             "no/such/file.bvh: not found; expected a motion file, a folder or a manifest (.csv)");
   std::filesystem::create_directories(folder_ + "empty");
   EXPECT_EQ(list_ood(folder_ + "empty").error().message,
-            folder_ + "empty: holds no motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc)");
+            folder_ + "empty: holds no motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx)");
 }
 
 TEST_F(OodFiles, every_file_is_styled_in_every_style) {

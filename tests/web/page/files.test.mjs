@@ -360,6 +360,10 @@ test('a wrong file is refused with the library\'s sentence, and the old one goes
   await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('notes'));
   assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), ' +
     'found the extension \'.txt\'');
+  writeFileSync(at('walk.fbx'), 'Kaydara');
+  await choose('walk.fbx');
+  await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('walk.fbx'));
+  assert.match(await alertText(), /^walk.fbx: is FBX, .* `panache view walk.fbx` shows it/);
   writeFileSync(at('cut.glb'), readFileSync(at('walk.glb')).subarray(0, 500));
   await choose('cut.glb');
   await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('cut'));
