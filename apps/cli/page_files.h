@@ -18,7 +18,8 @@ struct PageFile {
 
 class PageFiles {
  public:
-  // Reads all files of a folder and its subfolders. A file NAME.br next to NAME is the same, compressed.
+  // Reads all files of a folder and its subfolders. A file NAME.br next to NAME is the same,
+  // compressed.
   static Result<PageFiles> read(const std::string& folder);
 
   // The file at a decoded path of an address: "/assets/main.js"; "/" is "/index.html". Null if
