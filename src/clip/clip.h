@@ -70,6 +70,18 @@ Clip rest_clip(const Skeleton& skeleton);
 // Forward kinematics: `world` gets the joints of `local` in the space of the roots' parent, file
 // units. Both have the skeleton's joints, and may share arrays. Allocates nothing.
 void world_pose(const Skeleton& skeleton, ConstPose local, Pose world) noexcept;
+// The same for one joint, whose parent (-1: none) has been placed.
+inline void place_joint(int joint, int parent, ConstPose local, Pose world) noexcept {
+  const auto j = static_cast<size_t>(joint), p = static_cast<size_t>(parent);
+  if (parent < 0) {
+    world.rotations[j] = local.rotations[j];
+    world.translations[j] = local.translations[j];
+    return;
+  }
+  world.translations[j] = world.translations[p] + rotate(world.rotations[p], local.translations[j]);
+  // Rounding changes the length of a product a little; over a deep chain that would add up.
+  world.rotations[j] = normalized(world.rotations[p] * local.rotations[j]);
+}
 
 // Sets `still` for each joint that stays at rest in all frames of `clip`, up to rounding. The rest
 // pose is that of its skeleton.

@@ -41,9 +41,9 @@ Quat PosedRig::world_rotation(int human_joint) const noexcept {
 bool PosedRig::read(ConstPose pose, BodyPose& out) noexcept {
   const Rig::Shared& shared = *rig_.shared_;
   const size_t count = shared.skeleton.joints.size();
-  world_pose(
-      shared.skeleton, pose,
-      {std::span(world_rotations_).first(count), std::span(world_translations_).first(count)});
+  for (const auto& [joint, parent] : shared.placed) {
+    place_joint(joint, parent, pose, {world_rotations_, world_translations_});
+  }
   for (size_t i = 0; i < shared.added.size(); ++i) {
     const Joint& joint = shared.added[i];
     const Quat turn = world_rotations_[joint.parent];

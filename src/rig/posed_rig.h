@@ -63,8 +63,10 @@ class PosedRig {
   int ground_joint_;
   BodyPose last_;  // The last finite one.
 
-  std::vector<Quat> world_rotations_;     // [joints], of the last read(), file axes.
-  std::vector<Vec3> world_translations_;  // [joints], likewise, file units.
+  // [joints], of the last read(), file axes and units; only those that matter, see
+  // Rig::Shared::placed.
+  std::vector<Quat> world_rotations_;
+  std::vector<Vec3> world_translations_;
   // The same of the last write(); empty if no joint follows another.
   std::vector<Quat> new_rotations_;
   std::vector<Vec3> new_translations_;

@@ -192,6 +192,7 @@ Result<Rig> Rig::create(const Clip& given, const RigOptions& options) {
   }
   const bool is_layer = shared->leave_unkeyed_joints();
   shared->find_movers(clip);
+  shared->find_placed();
   // A body without legs, or a layer that does not move them, stays where it is.
   if (is_layer || (mapped->whole && mapped->whole->lacks_legs)) {
     shared->moved_joint = shared->ground_joint = -1;
@@ -263,6 +264,26 @@ void Rig::Shared::find_movers(const Clip& clip) {
   }
   ground_joint = find_ground_joint(clip, mapping.joint_of[index(hips)], calibration);
   if (ground_joint == moved_joint) ground_joint = -1;
+}
+
+// Most joints of a rig are fingers, twists and faces, whose places nobody asks for.
+void Rig::Shared::find_placed() {
+  const std::vector<Joint>& joints = skeleton.joints;
+  std::vector<char> needed(joints.size(), !order.empty());
+  const auto need = [&](int joint) {
+    for (; joint >= 0 && joint < static_cast<int>(joints.size()); joint = joints[joint].parent) {
+      needed[joint] = 1;
+    }
+  };
+  for (const int joint : mapping.joint_of) need(joint);
+  for (const Joint& joint : added) need(joint.parent);
+  for (const int joint : {moved_joint, ground_joint}) need(joint);
+  for (size_t j = 0; j < joints.size(); ++j) {
+    if (human_of[j] >= 0) need(static_cast<int>(j));
+  }
+  for (size_t j = 0; j < joints.size(); ++j) {
+    if (needed[j]) placed.push_back({static_cast<int>(j), joints[j].parent});
+  }
 }
 
 std::vector<JointMatch> Rig::matches() const {

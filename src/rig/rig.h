@@ -110,10 +110,16 @@ class Rig {
     // The joint whose position each one keeps, which is not above it, or -1; and all joints, each
     // after its parent and the one that it follows. Empty if none follows.
     std::vector<int> followed, order;
+    // The file's joints whose place in the world is needed, parents first, and their parents.
+    struct Placed {
+      int joint, parent;
+    };
+    std::vector<Placed> placed;
     BodyPose first_body;  // The clip's first finite pose.
 
     bool leave_unkeyed_joints();
     void find_movers(const Clip& clip);
+    void find_placed();
   };
 
   std::shared_ptr<const Shared> shared_;

@@ -33,7 +33,7 @@ float lift(const Heights& heights, float lowered, float carried = 1, int from = 
     change.translation.y = -down;
     HumanPositions joints;
     changed_joints(body, change, joints);
-    floor.step(body, joints, 1, carried, StepTime{1 / 60.0, 1 / 60.0f, f == 0}, change);
+    floor.step(body, joints, 1, carried, 0, StepTime{1 / 60.0, 1 / 60.0f, f == 0}, change);
     lifted = change.translation.y + down;
   }
   return lifted;

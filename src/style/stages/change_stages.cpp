@@ -72,7 +72,8 @@ void carry_out(LegsApart& legs, StageWork& work) noexcept {
 void carry_out(FloorClearance& floor, StageWork& work) noexcept {
   const float carried =
       work.above_floor * (1 - work.seated) * (1 - work.flight) * (1 - share_lifted(work.lift));
-  floor.step(work.now.world, work.joints, work.asked.amount, carried, work.time, work.change);
+  floor.step(work.now.world, work.joints, work.asked.amount, carried, work.root.translation.y,
+             work.time, work.change);
 }
 
 void carry_out(FreeFall& fall, StageWork& work) noexcept {
@@ -83,7 +84,7 @@ void carry_out(FootStance& stance, StageWork& work) noexcept {
   if (!work.options.foot_lock) return;
   const float amount = work.asked.amount * work.asked.shape->foot_lock;
   stance.step(work.body, work.joints, work.asked.stance, amount * (1 - work.flight), work.stepping,
-              work.lift, work.time, work.change);
+              work.lift + work.root.translation.y, work.time, work.change);
   std::ranges::copy(stance.held(), work.resting.begin());
 }
 

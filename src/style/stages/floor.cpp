@@ -45,12 +45,13 @@ float height_of_toes(const BodyPose& body, const HumanPositions& joints, const B
 }  // namespace
 
 void FloorClearance::step(const BodyPose& body, const HumanPositions& joints, float amount,
-                          float carried, const StepTime& time, BodyChange& change) noexcept {
+                          float carried, float ground, const StepTime& time,
+                          BodyChange& change) noexcept {
   const float depth =
       std::max(floor_depth(body, joints, change), resting_depth(body, joints, change));
   lift_ += time.gain(kLiftSeconds) * (depth - lift_);
   change.translation.y += amount * lift_;
-  const float height = carried * std::max(0.0f, height_of_toes(body, joints, change));
+  const float height = carried * std::max(0.0f, height_of_toes(body, joints, change) - ground);
   const float seconds = height > sink_wanted_ ? kSinkSeconds : kStopSeconds;
   approach(sink_wanted_, height, time.gain(seconds), 1e-5f);
   approach(sink_, sink_wanted_, time.gain(kSmoothSeconds), 1e-5f);

@@ -16,9 +16,9 @@ class FloorClearance {
  public:
   void reset() noexcept { lift_ = sink_wanted_ = sink_ = 0; }
   // `joints`: changed_joints(); `amount`: how active any style is, `carried`: how much the feet
-  // carry the body, both 0 to 1.
+  // carry the body, both 0 to 1; `ground`: see Climb::height().
   void step(const BodyPose& body, const HumanPositions& joints, float amount, float carried,
-            const StepTime& time, BodyChange& change) noexcept;
+            float ground, const StepTime& time, BodyChange& change) noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>

@@ -18,7 +18,8 @@ class FootStance {
  public:
   void reset() noexcept { *this = {}; }
   // `joints`: changed_joints(); updated. `amount`: how active any style is, 0 to 1. `stepping`:
-  // StepWatch::amount(). `lift`: how far a gesture lifts both feet, metres.
+  // StepWatch::amount(). `lift`: of the ground under the
+  // changed path and of a gesture, metres.
   void step(const HeadingBody& body, HumanPositions& joints, const Stance& stance, float amount,
             float stepping, float lift, const StepTime& time, BodyChange& change) noexcept;
   // How much each foot was held at its height at the last step, 0 to 1.

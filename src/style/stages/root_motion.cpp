@@ -27,7 +27,10 @@ constexpr float kMaxTurn = 0.4f;  // Radians.
 
 void RootMotion::step(const StyleDelta& delta, float gate, Vec3 pull, const Observer& observer,
                       const InputWindow& window, const StepTime& time) noexcept {
-  if (time.first) return;
+  if (time.first) {
+    climb_.step(observer.now().world, {}, time);
+    return;
+  }
   const float dt = static_cast<float>(time.input);
   // On unfamiliar motion a style does not change the root motion: its mean is that of its walks.
   const float moving = gate * std::min(1.0f, window.ground_speed() / kStandingSpeed);
@@ -65,6 +68,7 @@ void RootMotion::step(const StyleDelta& delta, float gate, Vec3 pull, const Obse
   if (far > 0 && wanted < 0) {
     drift_ += turned * std::min(-wanted, catching_up_ * time.output / far);
   }
+  climb_.step(observer.now().world, drift_ + sway_, time);
 }
 
 }  // namespace panache

@@ -3,6 +3,7 @@
 
 #include "pose/observer.h"
 #include "pose/style_delta.h"
+#include "style/stages/climb.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
 
@@ -14,7 +15,7 @@ inline constexpr float kCourseSeconds = 1.5f;
 
 // The root motion that a style has added since the start.
 struct RootOffset {
-  Vec3 translation;  // World, metres, y = 0.
+  Vec3 translation;  // World, metres; y = 0 on flat ground.
   float turn = 0;    // About +y, radians.
 };
 
@@ -25,13 +26,16 @@ class RootMotion {
   // `gate`: how well the motion is known, 0 to 1; `pull`: see FootLock::pull().
   void step(const StyleDelta& delta, float gate, Vec3 pull, const Observer& observer,
             const InputWindow& window, const StepTime& time) noexcept;
-  RootOffset offset() const noexcept { return {drift_ + sway_, turn_}; }
+  RootOffset offset() const noexcept {
+    return {drift_ + sway_ + Vec3{0, climb_.height(), 0}, turn_};
+  }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.drift_), visit(self.sway_), visit(self.turn_), visit(self.catching_up_);
     visit(self.mean_forward_), visit(self.mean_speed_);
+    Climb::visit_state(self.climb_, visit);
   }
 
  private:
@@ -41,6 +45,7 @@ class RootMotion {
   float catching_up_ = 0;  // Towards the planted feet, m/s.
   // The input's mean speed over the last seconds, m/s: forward, and in any direction.
   float mean_forward_ = 0, mean_speed_ = 0;
+  Climb climb_;
 };
 
 }  // namespace panache
