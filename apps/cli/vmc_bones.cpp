@@ -1,10 +1,13 @@
 #include "vmc_bones.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "rig/canonical_skeleton.h"
 
 namespace panache::cli {
 namespace {
@@ -57,6 +60,19 @@ std::optional<int> find_vmc_bone(std::string_view name) {
     if (kBones[b].name == name) return b;
   }
   return std::nullopt;
+}
+
+std::array<Vec3, kVmcBones> usual_positions(const VmcBoneSet& bones) {
+  const Skeleton usual = canonical_skeleton();
+  std::array<Vec3, kVmcBones> out{}, passed{};  // Passed: of bones that the sender lacks.
+  for (int b = kVmcHips; b < kVmcBones; ++b) {
+    const auto joint = std::ranges::find(usual.joints, role_of(b), &Joint::name);
+    const Vec3 offset = joint == usual.joints.end() ? Vec3{} : joint->offset;
+    const int parent = kBones[b].parent;
+    const Vec3 whole = offset + (bones[static_cast<size_t>(parent)] ? Vec3{} : passed[parent]);
+    (bones[static_cast<size_t>(b)] ? out : passed)[b] = whole;
+  }
+  return out;
 }
 
 Skeleton vmc_skeleton(const VmcBoneSet& bones, std::span<const Vec3> positions) {

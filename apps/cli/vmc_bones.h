@@ -2,6 +2,7 @@
 // The bones of VMC messages: Unity's humanoid, each relative to its nearest ancestor that the
 // sender has.
 
+#include <array>
 #include <bitset>
 #include <optional>
 #include <span>
@@ -26,5 +27,9 @@ using VmcBoneSet = std::bitset<kVmcBones>;
 // metres, Panache's axes. Its rest pose is the T-pose; the root and hips can move, all joints can
 // rotate.
 Skeleton vmc_skeleton(const VmcBoneSet& bones, std::span<const Vec3> positions);
+
+// Their positions in the canonical body, for a sender that gives none: those of fingers and eyes
+// are 0.
+std::array<Vec3, kVmcBones> usual_positions(const VmcBoneSet& bones);
 
 }  // namespace panache::cli

@@ -97,10 +97,26 @@ void VmcCharacter::learn() {
   learnt_.clear();
 }
 
+Vec3 VmcCharacter::position_of(const Bones& frame, int bone) const {
+  const Vec3 sent = frame.positions[static_cast<size_t>(bone)];
+  return places_ ? sent + (*places_)[static_cast<size_t>(bone)] : sent;
+}
+
 Result<void> VmcCharacter::stand() {
   Clip clip;
   const VmcBoneSet bones = VmcBoneSet(now_.known).set(kVmcRoot);
-  clip.skeleton = vmc_skeleton(bones, now_.positions);
+  // Some senders give rotations alone. The hips may still move.
+  bool placed = false;
+  for (int b = kVmcHips + 1; b < kVmcBones; ++b) {
+    placed = placed || now_.positions[static_cast<size_t>(b)] != Vec3{};
+  }
+  if (!placed) {
+    places_ = usual_positions(bones);
+    if (now_.positions[kVmcHips] != Vec3{}) (*places_)[kVmcHips] = {};
+  }
+  std::array<Vec3, kVmcBones> positions;
+  for (int b = 0; b < kVmcBones; ++b) positions[static_cast<size_t>(b)] = position_of(now_, b);
+  clip.skeleton = vmc_skeleton(bones, positions);
   clip.frame_time = std::max(1e-6, (learnt_.back().seconds - learnt_.front().seconds) /
                                        static_cast<double>(learnt_.size() - 1));
   clip.resize(static_cast<int>(learnt_.size()));
@@ -114,7 +130,7 @@ Result<void> VmcCharacter::stand() {
       const auto b = static_cast<size_t>(order[j]);
       const Bones& from = frame.known[b] ? frame : now_;
       clip.pose(f).rotations[j] = from.rotations[b];
-      clip.pose(f).translations[j] = from.positions[b];
+      clip.pose(f).translations[j] = position_of(from, order[j]);
     }
   }
   RigOptions options;
@@ -153,7 +169,7 @@ void VmcCharacter::style(std::span<const float> strengths) {
   for (size_t j = 0; j < bones_.size(); ++j) {
     const auto b = static_cast<size_t>(bones_[j]);
     pose.rotations[j] = now_.rotations[b];
-    pose.translations[j] = now_.positions[b];
+    pose.translations[j] = position_of(now_, bones_[j]);
   }
   filter_->apply(pose, now_.seconds - last_frame_);
   stylizer_->step(pose, strengths, now_.seconds - last_frame_, styled);
@@ -165,8 +181,9 @@ void VmcCharacter::style(std::span<const float> strengths) {
     if (!same_bits(styled.rotations[j], now_.rotations[b])) {
       put_rotation(bytes, place.at, styled.rotations[j]);
     }
-    if (!same_bits(styled.translations[j], now_.positions[b])) {
-      put_position(bytes, place.at, styled.translations[j]);
+    const Vec3 before = position_of(now_, bones_[j]), after = styled.translations[j];
+    if (!same_bits(after, before)) {
+      put_position(bytes, place.at, places_ ? now_.positions[b] + (after - before) : after);
     }
   }
   if (records_) how_.recording->add(now_.seconds, styled);

@@ -78,6 +78,8 @@ class VmcCharacter {
   void take_bone(const VmcMessage& bone, std::span<const float> strengths);
   void learn();
   Result<void> stand();
+  // A bone's position in this frame, metres; see places_.
+  Vec3 position_of(const Bones& frame, int bone) const;
   void style(std::span<const float> strengths);
   void release();
 
@@ -90,8 +92,10 @@ class VmcCharacter {
 
   std::optional<LiveStylizer> stylizer_;  // Set once the rig is made, like the next.
   std::optional<VmcFilter> filter_;
-  VmcBoneSet whole_;                          // Complete frame; has the root only if sent.
-  std::vector<int> bones_;                    // [joints]
+  VmcBoneSet whole_;        // Complete frame; has the root only if sent.
+  std::vector<int> bones_;  // [joints]
+  // Of a sender whose positions are all 0: what is added to them. [bones]
+  std::optional<std::array<Vec3, kVmcBones>> places_;
   std::array<size_t, kVmcBones> joint_of_{};  // Joint of each bone.
   Clip pose_, styled_;                        // Single frames.
   double last_frame_ = 0;

@@ -1,6 +1,7 @@
 // panache live and panache live send, fed and heard by sockets of the test.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -29,7 +30,7 @@ float lean(const std::vector<Bytes>& datagrams, int count) {
   std::vector<float> all;
   for (const Bytes& datagram : datagrams) {
     for (const auto& [name, bone] : bones_of(datagram)) {
-      if (name == "Hips" && now.size() > 20) {
+      if (name == "Hips" && now.contains("Head")) {
         Quat rotation;
         Vec3 position;
         for (const char* joint : {"Hips", "Spine", "Chest", "Neck", "Head"}) {
@@ -226,6 +227,64 @@ TEST_F(LiveVerb, an_old_walk_leans_forward_even_when_each_bone_comes_alone) {
   // In the data old people walk with the head some 10 cm further ahead; half of it shows that it
   // is forward, and not the noise of the walk.
   EXPECT_GT(lean(got_, 60) - lean(sent_, 60), 0.05f);
+}
+
+// A datagram without the bones of legs.
+std::vector<Bytes> upper_body(const Bytes& datagram) {
+  std::vector<Bytes> kept;
+  for (const Bytes& message : messages_of(datagram)) {
+    const bool is_leg =
+        std::ranges::any_of(std::array{"Leg", "Foot", "Toes"},
+                            [&](const char* part) { return message.find(part) != Bytes::npos; });
+    if (!is_leg) kept.push_back(message);
+  }
+  return kept;
+}
+
+TEST_F(LiveVerb, a_sender_without_legs_is_styled) {
+  ASSERT_EQ(run({"walker", "-o", "walk.bvh", "--seconds", "3"}).exit, 0);
+  start_live({"--style", "old=1"}, nullptr);
+  play(2.5, upper_body);
+  const Ran ran = end_live();
+  EXPECT_EQ(ran.exit, 0);
+  ASSERT_EQ(got_.size(), sent_.size());
+  EXPECT_GT(lean(got_, 60) - lean(sent_, 60), 0.05f) << ran.err;
+}
+
+// A datagram with all positions 0.
+std::vector<Bytes> rotations_alone(const Bytes& datagram) {
+  std::vector<Bytes> out = messages_of(datagram);
+  for (Bytes& message : out) {
+    if (!message.starts_with("/VMC/Ext/Bone/Pos")) continue;
+    const size_t at = 32 + osc(Bytes(message.c_str() + 32)).size();
+    message.replace(at, 12, 12, '\0');
+  }
+  return out;
+}
+
+TEST_F(LiveVerb, a_sender_that_gives_no_positions_is_styled_by_angles) {
+  ASSERT_EQ(run({"walker", "-o", "walk.bvh", "--seconds", "3"}).exit, 0);
+  start_live({"--style", "old=1"}, nullptr);
+  play(2.5, rotations_alone);
+  const Ran ran = end_live();
+  EXPECT_EQ(ran.exit, 0);
+  ASSERT_EQ(got_.size(), sent_.size());
+  const auto last_of = [](const std::vector<Bytes>& datagrams) {
+    std::map<std::string, Bone> last;
+    for (const Bytes& datagram : datagrams) {
+      for (const auto& [name, bone] : bones_of(datagram)) last[name] = bone;
+    }
+    return last;
+  };
+  std::map<std::string, Bone> in = last_of(sent_), out = last_of(got_);
+  EXPECT_LT(std::abs(dot(in["Spine"].rotation, out["Spine"].rotation)), 0.999f) << ran.err;
+  for (const auto& [name, bone] : out) {
+    if (name == "Hips") continue;
+    EXPECT_EQ(bone.position, in[name].position) << name;
+  }
+  // Old people stand lower.
+  EXPECT_LT(out["Hips"].position.y, -0.01f);
+  EXPECT_GT(out["Hips"].position.y, -0.3f);
 }
 
 TEST_F(LiveVerb, a_mirrored_walk_swings_the_other_leg) {
