@@ -12,6 +12,13 @@
 namespace panache {
 namespace {
 
+// What a reader takes: scales near 0 and steep tangents lead further.
+double readable(double number) {
+  constexpr double kFarthest = 9e8;
+  return std::isfinite(number) ? std::clamp(number, -kFarthest, kFarthest) : 0;
+}
+Vec3d readable(Vec3d v) { return {readable(v.x), readable(v.y), readable(v.z)}; }
+
 double axis_of(Vec3d v, size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 class FbxEncoder {
@@ -150,7 +157,7 @@ class FbxEncoder {
       node = id_of(base->id);
     } else {
       node = new_id();
-      add_object(new_fbx_curve_node(node, target.second, numbers.front()));
+      add_object(new_fbx_curve_node(node, target.second, readable(numbers.front())));
       connect(node, id_of(base_layer(stack)));
       connect(node, id_of(document_.models[target.first].id), kFbxPartNames[target.second]);
     }
@@ -162,7 +169,7 @@ class FbxEncoder {
 
   static std::vector<float> axis_values(std::span<const Vec3d> numbers, size_t axis) {
     std::vector<float> out;
-    for (const Vec3d v : numbers) out.push_back(static_cast<float>(axis_of(v, axis)));
+    for (const Vec3d v : numbers) out.push_back(static_cast<float>(readable(axis_of(v, axis))));
     return out;
   }
 
@@ -224,7 +231,7 @@ class FbxEncoder {
     const Result<FbxCurve> curve = read_fbx_curve(tree_, node);
     if (!curve || curve->keys.size() < 2) return false;
     for (size_t i = 0; i < bake.times().size(); ++i) {
-      out.push_back(static_cast<float>(curve->at(bake.source_time(i), 0)));
+      out.push_back(static_cast<float>(readable(curve->at(bake.source_time(i), 0))));
     }
     are_steps = curve->is_step();
     return true;
@@ -257,7 +264,7 @@ class FbxEncoder {
     }
     for (const auto& [target, numbers] : bake.parts()) {
       const int64_t node = new_id();
-      add_object(new_fbx_curve_node(node, target.second, numbers.front()));
+      add_object(new_fbx_curve_node(node, target.second, readable(numbers.front())));
       connect(node, base);
       connect(node, id_of(document_.models[target.first].id), kFbxPartNames[target.second]);
       for (size_t axis = 0; axis < 3; ++axis) {
