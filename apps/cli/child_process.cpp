@@ -17,6 +17,7 @@
 
 #include "messages.h"
 #include "sandbox.h"
+#include "stop_signal.h"
 
 namespace panache::cli {
 namespace {
@@ -51,15 +52,18 @@ int milliseconds_until(Clock::time_point end) {
   return static_cast<int>(std::clamp<int64_t>(left, 0, 1'000'000'000));
 }
 
-// Stops at `end`, or when the answer is too large.
+// Stops at `end`, when the answer is too large, or soon after Ctrl-C.
 std::string read_all(int file, Clock::time_point end) {
   std::string bytes;
   char part[1 << 16];
   for (;;) {
+    constexpr int kLookMilliseconds = 100;
     pollfd readable = {file, POLLIN, 0};
-    const int ready = ::poll(&readable, 1, milliseconds_until(end));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready <= 0) return bytes;
+    const int left = milliseconds_until(end);
+    const int ready = ::poll(&readable, 1, std::min(left, kLookMilliseconds));
+    if (stop_asked() || (ready == 0 && left == 0)) return bytes;
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    if (ready < 0) return bytes;
     const ssize_t done = ::read(file, part, sizeof part);
     if (done < 0 && errno == EINTR) continue;
     if (done <= 0 || bytes.size() > kLargestAnswer) return bytes;
@@ -166,6 +170,7 @@ Result<std::string> run_in_child(const std::string& role, const std::string& pat
   if (!failed) answer = read_all(ends[0], end);
   ::close(ends[0]);
   if (failed) return no_child(failed);
+  if (stop_asked()) return Error{path + ": stopped"};
   int status = 0;
   if (!child.wait(end, status)) {
     return Error{path + ": the process that works on it was stopped after " +
