@@ -60,7 +60,7 @@ int status_of(const httplib::Request& request, int port) {
   return request.method == "GET" || request.method == "HEAD" ? 0 : kMethodNotAllowed;
 }
 
-// Whether a header that lists names, like "gzip, br", has this one; "br;q=0" is none.
+// Whether a header that lists names, like "gzip, br", accepts this one; "br;q=0" rejects it.
 bool lists(const httplib::Request& request, const char* header, std::string_view name) {
   const std::string text = request.get_header_value(header);
   std::string_view rest = text;

@@ -74,7 +74,7 @@ class FbxClipsReader {
   }
 
   // Joints are what is called so, what moves the vertices of a mesh, what moves itself, and all
-  // above. Where there is none of that, everything is.
+  // above. In a file without any of these, every model is a joint.
   void find_joints() {
     std::vector<bool> is_joint(models_.size());
     for (size_t m = 0; m < models_.size(); ++m) {

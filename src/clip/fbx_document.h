@@ -91,7 +91,7 @@ struct FbxCurveNode {
   const FbxNode* node = nullptr;               // Null in FBX 6.
   std::vector<FbxConnection> targets;          // The properties that it animates.
   std::array<std::optional<double>, 3> still;  // By axis, where there is no curve.
-  std::array<FbxCurve, 3> curves;              // Empty where there is none.
+  std::array<FbxCurve, 3> curves;              // Empty for an axis without a curve.
   // All its curves, of other properties too: ID and where each is connected.
   std::vector<FbxConnection> curve_links;
 };

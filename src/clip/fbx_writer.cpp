@@ -182,30 +182,17 @@ FbxNewValue FbxNewValue::bytes(std::string bytes) {
   out.text_ = "\"\"";
   return out;
 }
-FbxNewValue FbxNewValue::times(std::span<const int64_t> numbers) {
+template <class T>
+FbxNewValue FbxNewValue::array(char type, std::span<const T> numbers) {
   FbxNewValue out;
-  out.type_ = 'l', out.count_ = numbers.size();
+  out.type_ = type, out.count_ = numbers.size();
   out.binary_ = binary_array(numbers), out.text_ = text_array(numbers);
   return out;
 }
-FbxNewValue FbxNewValue::wholes(std::span<const int32_t> numbers) {
-  FbxNewValue out;
-  out.type_ = 'i', out.count_ = numbers.size();
-  out.binary_ = binary_array(numbers), out.text_ = text_array(numbers);
-  return out;
-}
-FbxNewValue FbxNewValue::floats(std::span<const float> numbers) {
-  FbxNewValue out;
-  out.type_ = 'f', out.count_ = numbers.size();
-  out.binary_ = binary_array(numbers), out.text_ = text_array(numbers);
-  return out;
-}
-FbxNewValue FbxNewValue::doubles(std::span<const double> numbers) {
-  FbxNewValue out;
-  out.type_ = 'd', out.count_ = numbers.size();
-  out.binary_ = binary_array(numbers), out.text_ = text_array(numbers);
-  return out;
-}
+FbxNewValue FbxNewValue::times(std::span<const int64_t> numbers) { return array('l', numbers); }
+FbxNewValue FbxNewValue::wholes(std::span<const int32_t> numbers) { return array('i', numbers); }
+FbxNewValue FbxNewValue::floats(std::span<const float> numbers) { return array('f', numbers); }
+FbxNewValue FbxNewValue::doubles(std::span<const double> numbers) { return array('d', numbers); }
 
 FbxNewValue FbxNewValue::copy(const FbxValue& value) {
   FbxNewValue out;

@@ -35,6 +35,9 @@ class FbxNewValue {
   void append_numbers(std::string& out) const;
 
  private:
+  template <class T>
+  static FbxNewValue array(char type, std::span<const T> numbers);
+
   static constexpr size_t kNoArray = ~size_t{0};
   char type_ = 'I';
   std::string binary_;  // Without the type.

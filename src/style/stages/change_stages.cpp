@@ -46,7 +46,7 @@ void carry_out(Shaping& shaping, StageWork& work) noexcept {
   work.shape = *work.asked.shape;
   for (float& region : work.shape.regions) region *= work.above_floor;
   work.shape.regions[static_cast<size_t>(Region::legs)] *= 1 - work.seated;
-  shaping.step(work.shape, *work.delta, work.root, work.time, work.change);
+  work.root = shaping.step(work.shape, *work.delta, work.root, work.time, work.change);
 }
 
 void carry_out(Gestures&, StageWork& work) noexcept {

@@ -60,14 +60,15 @@ StyleDelta Shaping::weigh_in_time(const Shape& shape, const StyleDelta& delta,
   return out;
 }
 
-void Shaping::step(const Shape& shape, const StyleDelta& delta, const RootOffset& root,
-                   const StepTime& time, BodyChange& out) noexcept {
+RootOffset Shaping::step(const Shape& shape, const StyleDelta& delta, const RootOffset& root,
+                         const StepTime& time, BodyChange& out) noexcept {
   const RootOffset given = hold_back(shape, root, time);
   const StyleDelta shaped = weigh_in_time(shape, delta, time);
   out.rotations = joint_rotations(shaped);
   weigh_regions(shape, out.rotations);
   out.turn = given.turn;
   out.translation = given.translation + Vec3{0, shaped.hips_height * legs_of(shape), 0};
+  return given;
 }
 
 }  // namespace panache

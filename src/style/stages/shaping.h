@@ -15,9 +15,9 @@ namespace panache {
 class Shaping {
  public:
   void reset() noexcept { *this = {}; }
-  // Writes `delta` and `root`, shaped, as a change of the body.
-  void step(const Shape& shape, const StyleDelta& delta, const RootOffset& root,
-            const StepTime& time, BodyChange& out) noexcept;
+  // Writes `delta` and `root`, shaped, as a change of the body; returns the shaped root motion.
+  RootOffset step(const Shape& shape, const StyleDelta& delta, const RootOffset& root,
+                  const StepTime& time, BodyChange& out) noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>

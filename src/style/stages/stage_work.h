@@ -55,7 +55,8 @@ struct StageWork {
   float above_floor = 1;              // Share, see share_above_floor().
   float log_rate = 0;                 // See AskedChange; 0 in a flight or without steps.
   const StyleDelta* delta = nullptr;  // Filtered; set by the filter.
-  RootOffset root = {};               // The style's change of the way.
+  RootOffset root = {};               // The style's change of the way; from the shape
+                                      // stage on, without what that holds back.
   Shape shape = {};                   // As requested, reduced where it does not suit the body.
   float lift = 0;                     // How far a gesture lifts both feet, metres.
   HumanPositions joints = {};  // changed_joints() of body and change, from the balance stage on.
