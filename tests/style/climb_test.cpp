@@ -64,6 +64,20 @@ TEST(Climb, path_and_climb_change_together) {
   }
 }
 
+TEST(Climb, a_path_that_is_held_back_keeps_the_ground_of_the_input) {
+  const Clip clip = walk_on(kSlope);
+  const Rig rig = *Rig::create(clip);
+  RestyleOptions options;
+  options.timing = false;
+  options.stylizer.shape.regions[static_cast<size_t>(Region::legs)] = 0;
+  const auto styled =
+      restyle(clip, rig, shipped(), {{*shipped()->find_style("old"), {{0, 1}}}}, options);
+  ASSERT_TRUE(styled.ok()) << styled.error().message;
+  const Path before = path_of(clip, kSlope), after = path_of(styled->clip, kSlope);
+  EXPECT_NEAR(after.along, before.along, 0.05f);
+  EXPECT_NEAR(after.above, before.above, 0.06f);
+}
+
 // Steps of 0.6 m to these heights, 0.5 s each, while a style takes back a fifth of the way: the
 // height of the ground under the changed path at the end.
 float height_after(const std::vector<float>& heights) {
