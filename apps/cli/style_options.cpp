@@ -42,6 +42,10 @@ void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
              "REGION=AMOUNT: amount of the style on legs, torso,\nleft_arm or right_arm, 0 to 2. "
              "One --region per\nregion")
       ->allow_extra_args(false);
+  add_option(verb, "--contacts AMOUNT", flags.shape.hand_contacts,
+             "How firmly hands keep what they touch: each other, the\nhead, hips or thighs; 0 to 1 "
+             "(the default)")
+      ->check(in_range(0, 1));
   add_option(verb, "--gestures RATE", flags.gestures,
              "How often the styles make their gestures: 1 as often as\nthe performers (the "
              "default), 0 never, up to 10 times as\noften. panache styles lists them")

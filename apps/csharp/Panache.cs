@@ -154,7 +154,7 @@ public sealed class Shape {
   private uint structSize = Native.SizeOf<Shape>();
   public float Strength = 1, Posture = 1, Dynamics = 1, Timing = 1;
   public float Legs = 1, Torso = 1, LeftArm = 1, RightArm = 1;
-  public float FootLock = 1;  // 0 to 1.
+  public float FootLock = 1, HandContacts = 1;  // 0 to 1.
 }
 
 /// How a character is styled; see panache_character_options.

@@ -286,10 +286,11 @@ typedef struct panache_shape {
   /* Body regions, each relative to its parent. Legs include hips, height and root motion; the torso
    * includes the head. */
   float legs, torso, left_arm, right_arm;
-  float foot_lock; /* How firmly planted feet are held, 0 to 1. */
+  float foot_lock;     /* How firmly planted feet are held, 0 to 1. */
+  float hand_contacts; /* How firmly hands keep what they touch, 0 to 1. */
 } panache_shape;
 #define PANACHE_SHAPE \
-  { sizeof(panache_shape), 1, 1, 1, 1, 1, 1, 1, 1, 1 }
+  { sizeof(panache_shape), 1, 1, 1, 1, 1, 1, 1, 1, 1, 1 }
 
 /* Sets the shape; eased in as strengths are. NULL: 1 everywhere. */
 PANACHE_API panache_status panache_character_set_shape(panache_character* character,

@@ -16,7 +16,8 @@
   verb(fit_walker) \
   verb(neutral_bank) \
   verb(learning) \
-  verb(arrival)
+  verb(arrival) \
+  verb(outputs)
 // clang-format on
 
 namespace panache::cli {

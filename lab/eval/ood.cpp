@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr float kLimitTolerance_deg = 5;  // A smaller excess over a limit is not counted.
 constexpr float kFloorTolerance = 0.03f;  // Metres.
+constexpr float kCrouch = 0.7f;           // Metres: hips below it.
 constexpr float kJump = 0.06f;            // Metres.
 constexpr double kStill = 0.01;           // m/s: a coordinate that deviates less does not move.
 
@@ -150,6 +151,18 @@ float lowest_toe(const HumanPositions& body) {
   return std::min(body[index(kToes[0])].y, body[index(kToes[1])].y);
 }
 
+// Counts the legs of one frame.
+void count_legs(const HumanPositions& from, const HumanPositions& to, LegRange& range) {
+  for (size_t side = 0; side < 2; ++side) {
+    const LegBeyond was = leg_beyond(from, side), is = leg_beyond(to, side);
+    if (std::max(was.thigh, was.knee) > 0) continue;
+    ++range.legs;
+    range.thighs += is.thigh > kLimitTolerance_deg;
+    range.knees += is.knee > kLimitTolerance_deg;
+    range.worst_deg = std::max({range.worst_deg, is.thigh, is.knee});
+  }
+}
+
 // Share of the frames where `fails` is true for `to` but not for `from`.
 template <typename Fails>
 double share_of_frames(const Take& from, const Take& to, const Fails& fails) {
@@ -171,6 +184,10 @@ OodRow compare_ood(const Take& input, const Take& output) {
         return beyond_limits(to).degrees > kLimitTolerance_deg &&
                beyond_limits(from).degrees <= kLimitTolerance_deg;
       });
+  for (int f = 0; f < output.frames(); ++f) {
+    const bool low = input.body[f][index(HumanJoint::hips)].y < kCrouch;
+    count_legs(input.body[f], output.body[f], low ? row.crouching : row.upright);
+  }
   row.under_floor =
       share_of_frames(input, output, [](const HumanPositions& from, const HumanPositions& to) {
         return lowest_toe(to) < std::min(0.0f, lowest_toe(from)) - kFloorTolerance;
@@ -186,7 +203,8 @@ OodRow compare_ood(const Take& input, const Take& output) {
 
 Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, const System& system,
                                         const OodJudge* judge,
-                                        const std::function<void(double)>& progress) {
+                                        const std::function<void(double)>& progress,
+                                        float strength) {
   std::vector<ManifestRow> named;
   for (const std::string& file : files) named.emplace_back().path = file;
   Result<std::vector<TestInput>> inputs = load_inputs(named);
@@ -194,7 +212,7 @@ Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, c
   std::vector<std::pair<const TestInput*, StyleRequest>> jobs;
   for (const TestInput& input : *inputs) {
     for (const std::string& style : system.styles()) {
-      const StyleRequest request{style, {{style, 1.0f}}, false};
+      const StyleRequest request{style, {{style, strength}}, false};
       if (system.can_run(input, request)) jobs.emplace_back(&input, request);
     }
   }

@@ -35,7 +35,14 @@ class OodJudge {
                            const std::string& style) const = 0;
 };
 
-// One clip in one style at strength 1, frame by frame in the input's own time. Speeds, heights and
+// Legs of frames whose input is within the limits: how many there are, and how many of them have a
+// thigh, or a knee, more than 5 degrees beyond, see leg_beyond().
+struct LegRange {
+  int legs = 0, thighs = 0, knees = 0;
+  float worst_deg = 0;  // The largest excess.
+};
+
+// One clip in one style, frame by frame in the input's own time. Speeds, heights and
 // joints are those of the canonical body as read from the character's own skeleton.
 struct OodRow {
   std::string clip;   // File name without folder and extension.
@@ -49,7 +56,8 @@ struct OodRow {
   // Share of frames with a joint 5 degrees beyond human limits (see beyond_limits()) that is within
   // them in the input.
   double beyond_limits = 0;
-  double under_floor = 0;  // Share of frames with a toe 3 cm below floor and lowest input toe.
+  LegRange upright, crouching;  // By the input's hips, over or under 70 cm.
+  double under_floor = 0;       // Share of frames with a toe 3 cm below floor and lowest input toe.
   // Frames where a joint jumps by more than 6 cm, and twice as far as in the input then.
   int jumps = 0;
   double skating_ratio = 0, input_skating_ratio = 0;
@@ -64,14 +72,15 @@ struct OodRow {
 // positions. The caller sets clip, style and gate.
 OodRow compare_ood(const Take& input, const Take& output);
 
-// Runs every clip of `files` (any motion file) in every style of the system, at strength 1 and the
+// Runs every clip of `files` (any motion file) in every style of the system, at `strength` and the
 // input's tempo, and compares the output with the input, both read at 30 frames a second from the
 // first frame of motion. If there are style classifiers, also runs the style's own tempo and
 // classifies that. Rows are ordered by files, then styles; unsupported requests are skipped. Fails
 // if a file cannot be read or mapped. `progress` gets 0 to 1, from any thread.
 Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, const System& system,
                                         const OodJudge* judge = nullptr,
-                                        const std::function<void(double)>& progress = {});
+                                        const std::function<void(double)>& progress = {},
+                                        float strength = 1);
 
 // The motion files of a file, a folder (recursively) or a manifest (.csv: contents that occur only
 // as neutral; only those marked test if some are), sorted by name. Fails if no file is found.

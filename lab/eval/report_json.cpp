@@ -188,6 +188,7 @@ Json ood_summary_json(const std::vector<OodRow>& rows) {
     jumps += row.jumps;
     jump_rows += row.jumps > 0;
   }
+  const LegSummary legs = summarize_legs(rows);
   Json out = {
       {"rows", rows.size()},
       {"clips", ood_by_clip(rows).size()},
@@ -200,6 +201,12 @@ Json ood_summary_json(const std::vector<OodRow>& rows) {
         {"p10", at(&OodRow::velocity_correlation, 0.1)}}},
       {"distance_cm", {{"mean", mean(&OodRow::distance_cm)}}},
       {"beyond_limits", shares(&OodRow::beyond_limits)},
+      {"legs_beyond",
+       {{"upright_thighs", number(legs.upright_thighs)},
+        {"upright_knees", number(legs.upright_knees)},
+        {"crouching_thighs", number(legs.crouching_thighs)},
+        {"crouching_knees", number(legs.crouching_knees)},
+        {"worst_deg", number(legs.worst_deg)}}},
       {"under_floor", shares(&OodRow::under_floor)},
       {"jumps", {{"frames", jumps}, {"rows", jump_rows}}},
       {"skating_ratio", {{"mean", mean(&OodRow::skating_ratio)}}},

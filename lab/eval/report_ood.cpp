@@ -61,6 +61,23 @@ StyleSummary summarize_styles(const std::vector<OodRow>& rows) {
   return out;
 }
 
+LegSummary summarize_legs(const std::vector<OodRow>& rows) {
+  LegRange upright, crouching;
+  const auto add = [](const LegRange& of_row, LegRange& sum) {
+    sum.legs += of_row.legs;
+    sum.thighs += of_row.thighs;
+    sum.knees += of_row.knees;
+    sum.worst_deg = std::max(sum.worst_deg, of_row.worst_deg);
+  };
+  for (const OodRow& row : rows) add(row.upright, upright), add(row.crouching, crouching);
+  const auto share = [](int count, const LegRange& of) {
+    return of.legs > 0 ? static_cast<double>(count) / of.legs : kNotMeasured;
+  };
+  return {share(upright.thighs, upright), share(upright.knees, upright),
+          share(crouching.thighs, crouching), share(crouching.knees, crouching),
+          std::max(upright.worst_deg, crouching.worst_deg)};
+}
+
 std::vector<std::pair<std::string, std::vector<OodRow>>> ood_by_clip(
     const std::vector<OodRow>& rows) {
   std::vector<std::pair<std::string, std::vector<OodRow>>> clips;

@@ -22,6 +22,13 @@ struct StyleSummary {
 };
 StyleSummary summarize_styles(const std::vector<OodRow>& rows);
 
+// The shares of legs beyond their range, and the largest excess in degrees; see LegRange. NaN
+// without such legs.
+struct LegSummary {
+  double upright_thighs, upright_knees, crouching_thighs, crouching_knees, worst_deg;
+};
+LegSummary summarize_legs(const std::vector<OodRow>& rows);
+
 // The rows of each clip, in order of first occurrence.
 std::vector<std::pair<std::string, std::vector<OodRow>>> ood_by_clip(
     const std::vector<OodRow>& rows);

@@ -27,6 +27,7 @@ inline Result<Shape> read_shape(const panache_shape* given) {
   out.regions[size_t(Region::left_arm)] = read->left_arm;
   out.regions[size_t(Region::right_arm)] = read->right_arm;
   out.foot_lock = read->foot_lock;
+  out.hand_contacts = read->hand_contacts;
   return out;
 }
 

@@ -13,22 +13,23 @@ namespace panache {
 namespace {
 
 constexpr float kPlant = 0.6f, kRelease = 0.4f;  // Hysteresis on the contact probability,
-// and on the speed of the input's toe: whatever the contact is, a foot that leaves fast (a spin, a
-// kick) is not held until it is torn away. m/s
-constexpr float kStands = 0.5f, kLeaves = 0.7f;
+// and on the speed of the input's toe over the ground: whatever the contact is, a foot that leaves
+// fast (a spin, a kick) is not held until it is torn away. m/s
+constexpr float kStands = 0.8f, kLeaves = 1;
 // A planted foot is held in place against a pull of up to kHeld, and trails behind a longer one, by
 // kMaxOffset at most. A foot pulled further than that is let go if the input's foot has moved as
 // far itself, as in a walk in place; where the input stands, that would throw it aside (11 cm in a
 // quarter of a second).
-constexpr float kHeld = 0.09f, kMaxOffset = 0.12f;  // Metres.
+constexpr float kHeld = 0.18f,
+                kMaxOffset = 0.22f;  // Metres; half of both lets `old` slide twice as fast.
 // A planted foot that the style wants elsewhere than where it landed gets there slowly: to within
 // kSettled, at kCreep at most, and with kCreepSeconds as the time constant of the rest.
-constexpr float kSettled = 0.01f, kCreep = 0.04f, kCreepSeconds = 0.5f;  // Metres, m/s, s.
+constexpr float kSettled = 0.01f, kCreep = 0.02f, kCreepSeconds = 0.5f;  // Metres, m/s, s.
 // A foot comes to rest and leaves without a jerk: its speed at the plant dies away with this time
 // constant, and the correction of a released foot as a critically damped spring of this rate.
 constexpr float kRestSeconds = 0.03f;
 constexpr float kFadeRate = 20;  // 1/s
-constexpr float kMaxGlide = 1;   // m/s; a faster foot is not about to stand.
+constexpr float kMaxGlide = 2;   // m/s; a faster foot is not about to stand.
 
 // A nearly straight leg follows only a share of changes of its length, or its knee would fly back
 // and forth: the sine of the angle between its reach and its length. A toe that is kDeep below the
@@ -77,7 +78,8 @@ void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, Seconds t
   const bool first = foot.state == State::unseen;
   const Vec3 last_offset = foot.offset, last_toe = first ? toe : foot.toe;
   foot.toe = toe;
-  const float moved = !first && time.input > 0 ? length(input - foot.input) / time.input : 0.0f;
+  const Vec3 way = input - foot.input;
+  const float moved = !first && time.input > 0 ? std::hypot(way.x, way.z) / time.input : 0.0f;
   foot.input = input;
   if (first || contact < kRelease || moved > kLeaves) foot.state = State::free;
   const Vec3 velocity = seconds > 0 ? (toe - last_toe) / seconds + foot.speed : Vec3{};
@@ -122,15 +124,6 @@ Vec3 FootLock::bend(Foot& foot, Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 ahead, flo
     foot.knee = normalized(last + around * most);
   }
   return foot.knee;
-}
-
-Vec3 FootLock::pull() const noexcept {
-  Vec3 most;
-  for (const Foot& foot : feet_) {
-    const Vec3 pull = foot.state == State::planted ? foot.anchor - foot.toe : Vec3{};
-    if (length(pull) > length(most)) most = pull;
-  }
-  return most;
 }
 
 void FootLock::step(const BodyPose& body, const HumanPositions& joints,

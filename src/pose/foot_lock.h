@@ -27,10 +27,6 @@ class FootLock {
             std::span<const float, kFeet> contacts, std::span<const float, kFeet> level,
             float amount, Seconds seconds, BodyChange& change) noexcept;
 
-  // From a planted foot's position in the style to its actual one, at the last step, world, metres:
-  // the longer of both feet; 0 if none is planted.
-  Vec3 pull() const noexcept;
-
   // Calls visit(member) for all state of a foot lock.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {

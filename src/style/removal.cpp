@@ -63,9 +63,9 @@ Result<Restyled> restyle_without(const Clip& clip, const Rig& rig, const Removal
     };
   };
   RestyleOptions plain = options;
-  plain.stylizer.shape = {};
+  // The style that is taken off may cause what the hands touch.
+  plain.stylizer.shape = {.hand_contacts = 0};
   plain.stylizer.sides = {};
-  plain.stylizer.hold_hands = false;
   Result<Restyled> neutral =
       restyle(clip, rig, removal.remover, {{removal.style, {{0, 1}}}}, plain, part(0));
   if (!neutral || !again) return neutral;

@@ -9,9 +9,8 @@ namespace panache {
 Result<RemovalPass> RemovalPass::create(std::shared_ptr<const Model> remover, Rig rig,
                                         StylizerOptions options) {
   if (Result<int> any = find_removal(*remover, ""); !any) return any.error();
-  options.shape = {};
+  options.shape = {.hand_contacts = 0};
   options.sides = {};
-  options.hold_hands = false;
   Result<Stylizer> stylizer = Stylizer::create(std::move(remover), std::move(rig), options);
   if (!stylizer) return stylizer.error();
   return RemovalPass(*std::move(stylizer));

@@ -31,7 +31,8 @@ struct Shape {
   float timing = 1;    // Factor of the logarithm of the rate.
   // Legs include hips, height and root motion; the torso includes the head.
   std::array<float, kRegions> regions = {1, 1, 1, 1};
-  float foot_lock = 1;  // How firmly planted feet are held, 0 to 1.
+  float foot_lock = 1;      // How firmly planted feet are held, 0 to 1.
+  float hand_contacts = 1;  // How firmly hands keep what they touch, 0 to 1.
 
   friend bool operator==(const Shape&, const Shape&) = default;
 };

@@ -8,7 +8,7 @@
 namespace panache {
 
 Stepper::Stepper(Rig rig, PoseLayout layout, const StylizerOptions& options)
-    : options_{options.root, options.foot_lock, options.hold_hands, options.tempo_everywhere},
+    : options_{options.root, options.foot_lock, options.tempo_everywhere},
       observer_(std::move(rig), options.max_speed),
       window_(layout),
       stages_(options.smoothing_seconds) {}

@@ -16,8 +16,6 @@ struct StylizerOptions {
   // Time constant of the filter on the change, never on the input; see OutputFilter.
   float smoothing_seconds = 0.04f;
   bool foot_lock = true;
-  // Hands keep what they touch. Off when a style is removed: the style may cause the contact.
-  bool hold_hands = true;
   bool root = true;  // Style the root motion, not only the pose.
   // Use the style's tempo even while the feet stand; otherwise such motion keeps the input's time.
   bool tempo_everywhere = false;

@@ -84,6 +84,7 @@ TEST_F(ShapeOptions, a_wrong_region_is_rejected) {
               "panache: --region 'legs=3': expected an amount of 0 to 2, found '3'\n");
     EXPECT_EQ(rejection(verb, {"--region", "legs=1", "--region", "legs=0"}),
               "panache: --region legs is given twice\n");
+    EXPECT_NE(rejection(verb, {"--contacts", "2"}).find("--contacts"), std::string::npos);
   }
 }
 

@@ -51,6 +51,7 @@ int main() {
   FIELD(shape, left_arm);
   FIELD(shape, right_arm);
   FIELD(shape, foot_lock);
+  FIELD(shape, hand_contacts);
   STRUCT(input_pose);
   FIELD(input_pose, rotations);
   FIELD(input_pose, translations);

@@ -137,22 +137,42 @@ TEST_F(AnatomyTest, a_torso_is_not_turned_around_and_its_arms_go_with_it) {
 }
 
 // A foot that is held pulls its thigh across the other after the limits were kept.
-TEST_F(AnatomyTest, a_thigh_that_is_pulled_across_the_other_is_noticed) {
-  const auto share = [&](float degrees, size_t side, bool right = false) {
-    const Quat inward = axis_angle(Vec3{0, 0, 1}, (right ? degrees : -degrees) * kDegree);
-    ThighWatch thighs;
-    thighs.step(body_, {},
-                right ? turned(right_upper_leg, right_toes, inward)
-                      : turned(left_upper_leg, left_toes, inward));
-    return thighs.share(side);
+TEST_F(AnatomyTest, a_held_leg_goes_back_as_far_as_its_thigh_needs) {
+  const auto inward = [&](float degrees, bool right) {
+    const Quat turn = axis_angle(Vec3{0, 0, 1}, (right ? degrees : -degrees) * kDegree);
+    return right ? turned(right_upper_leg, right_lower_leg, turn)
+                 : turned(left_upper_leg, left_lower_leg, turn);
   };
-  EXPECT_EQ(share(0, 0), 0);
-  EXPECT_EQ(share(20, 0), 0);
-  EXPECT_GT(share(60, 0), 0.1f);
-  EXPECT_GT(share(80, 0), share(60, 0));
-  EXPECT_EQ(share(80, 1), 0) << "the other leg";
-  EXPECT_GT(share(60, 1, true), 0.1f);
-  EXPECT_EQ(share(80, 0, true), 0);
+  const BodyChange free = {};
+  for (const bool right : {false, true}) {
+    const auto kept = [&](float degrees) {
+      BodyChange change = inward(degrees, right);
+      std::array<float, 2> released{};
+      keep_held_legs(body_, free, {}, released, change);
+      EXPECT_EQ(released[right ? 0 : 1], 0) << "the other leg";
+      EXPECT_EQ(released[right ? 1 : 0] > 0, degrees > 45) << degrees;
+      const int thigh = index(right ? right_upper_leg : left_upper_leg);
+      return length(log_rotation(change.rotations[thigh])) / kDegree;
+    };
+    EXPECT_NEAR(kept(0), 0, 1e-3f);
+    EXPECT_NEAR(kept(20), 20, 1e-3f);
+    EXPECT_NEAR(kept(60), 40, 5) << "30 degrees and their margin";
+    EXPECT_NEAR(kept(80), kept(60), 3);
+  }
+}
+
+TEST_F(AnatomyTest, a_leg_at_its_limit_is_held_again_slowly) {
+  const BodyChange free = {};
+  BodyChange change =
+      turned(left_upper_leg, left_lower_leg, axis_angle(Vec3{0, 0, 1}, -70 * kDegree));
+  std::array<float, 2> released{};
+  keep_held_legs(body_, free, {}, released, change);
+  const float first = released[0];
+  ASSERT_GT(first, 0.2f);
+  change = turned(left_upper_leg, left_lower_leg, axis_angle(Vec3{0, 0, 1}, -20 * kDegree));
+  keep_held_legs(body_, free, {0.03, 0.03, false}, released, change);
+  EXPECT_GT(released[0], 0.85f * first);
+  EXPECT_LT(released[0], first);
 }
 
 TEST_F(AnatomyTest, a_limit_comes_and_goes_gradually) {

@@ -49,19 +49,19 @@ struct Stepped {
   HandHolds holds;
 };
 Stepped step(HandContacts& hands, const BodyPose& body, const BodyChange& wanted, bool first,
-             float amount = 1) {
+             float amount = 1, float firmness = 1) {
   Stepped out;
   out.change = wanted;
   changed_joints(body, out.change, out.joints);
-  hands.step(body, {amount, amount}, {kSeconds, kSeconds, first}, out.joints, out.change);
+  hands.step(body, firmness, {amount, amount}, {kSeconds, kSeconds, first}, out.joints, out.change);
   changed_joints(body, out.change, out.joints);
   out.holds = hands.holds();
   return out;
 }
-Stepped held(const BodyPose& body, const BodyChange& wanted, float amount = 1) {
+Stepped held(const BodyPose& body, const BodyChange& wanted, float amount = 1, float firmness = 1) {
   HandContacts hands;
   Stepped out;
-  for (int f = 0; f < 60; ++f) out = step(hands, body, wanted, f == 0, amount);
+  for (int f = 0; f < 60; ++f) out = step(hands, body, wanted, f == 0, amount, firmness);
   return out;
 }
 
@@ -119,14 +119,38 @@ TEST(HandContacts, an_arm_that_is_folded_does_not_throw_its_elbow_about) {
 
 TEST(HandContacts, a_hand_that_rests_on_a_thigh_goes_with_it) {
   const BodyPose body = hand_on_thigh();
-  const BodyChange wanted = turned({{chest, axis_angle(kX, 0.2f)},
-                                    {left_upper_arm, axis_angle(kZ, 0.6f)},
-                                    {left_upper_leg, rotation_y(0.2f)}});
+  const BodyChange wanted = turned({{chest, axis_angle(kX, 0.05f)},
+                                    {left_upper_arm, axis_angle(kZ, 0.05f)},
+                                    {left_upper_leg, rotation_y(0.1f)}});
   const Stepped out = held(body, wanted);
   EXPECT_EQ(out.holds.by_body[0], 1);
   EXPECT_EQ(out.holds.by_body[1], 0);
   EXPECT_NEAR(apart(out.joints, left_hand, left_lower_leg),
               apart(body.joints, left_hand, left_lower_leg), 1e-3f);
+}
+
+TEST(HandContacts, a_style_that_moves_the_arm_takes_a_resting_hand_along_bit_for_bit) {
+  const BodyChange wanted = turned({{left_upper_arm, axis_angle(kZ, 0.9f)}});
+  const Stepped out = held(hand_on_thigh(), wanted);
+  EXPECT_EQ(out.holds.by_body[0], 0);
+  EXPECT_TRUE(test::same(out.change, wanted));
+  // Half of it still lets go in part; a hand at the head holds.
+  const Stepped half = held(hand_on_thigh(), turned({{left_upper_arm, axis_angle(kZ, 0.35f)}}));
+  EXPECT_GT(half.holds.by_body[0], 0.1f);
+  EXPECT_LT(half.holds.by_body[0], 0.9f);
+  EXPECT_EQ(held(hand_at_head(), wanted).holds.by_body[0], 1);
+}
+
+TEST(HandContacts, are_as_firm_as_the_user_wants_them) {
+  const BodyPose body = hands_ahead(1.85f);
+  const auto missed = [&](float firmness) {
+    return std::abs(apart(held(body, spread(), 1, firmness).joints, left_hand, right_hand) -
+                    apart(body.joints, left_hand, right_hand));
+  };
+  EXPECT_LT(missed(1), 5e-3f);
+  EXPECT_GT(missed(0.5f), missed(1) + 0.05f);
+  EXPECT_GT(missed(0), missed(0.5f) + 0.05f);
+  EXPECT_TRUE(test::same(held(body, spread(), 1, 0).change, spread()));
 }
 
 TEST(HandContacts, a_hand_that_passes_a_thigh_is_free) {

@@ -50,7 +50,7 @@ TEST_F(RemovalTest, a_model_that_puts_styles_on_removes_none) {
 // As it is taken off: the style may be what puts hands where they are.
 RestyleOptions loose_hands() {
   RestyleOptions options;
-  options.stylizer.hold_hands = false;
+  options.stylizer.shape.hand_contacts = 0;
   return options;
 }
 

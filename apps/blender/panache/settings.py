@@ -21,6 +21,7 @@ SHAPE = {
     'legs': ('Legs', 'Amount of the style on legs and root motion', 1.0),
     'left_arm': ('Left Arm', 'Amount of the style on the left arm', 1.0),
     'right_arm': ('Right Arm', 'Amount of the style on the right arm', 1.0),
+    'hand_contacts': ('Hand Contacts', 'How firmly hands keep what they touch', 1.0),
 }
 _model = None
 _problem = ''  # Why the model in the preferences is not in use.

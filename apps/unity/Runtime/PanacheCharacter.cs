@@ -26,12 +26,13 @@ public sealed class StyleShape {
   [Range(0, 2)] public float leftArm = 1;
   [Range(0, 2)] public float rightArm = 1;
   [Range(0, 1), Tooltip("How firmly planted feet are held.")] public float footLock = 1;
+  [Range(0, 1), Tooltip("How firmly hands keep what they touch.")] public float handContacts = 1;
 
   /// Copies the amounts. Returns whether any of them changed.
   internal bool CopyTo(Shape shape) {
     if (shape.Posture == posture && shape.Dynamics == dynamics && shape.Legs == legs &&
         shape.Torso == torso && shape.LeftArm == leftArm && shape.RightArm == rightArm &&
-        shape.FootLock == footLock)
+        shape.FootLock == footLock && shape.HandContacts == handContacts)
       return false;
     shape.Posture = posture;
     shape.Dynamics = dynamics;
@@ -40,6 +41,7 @@ public sealed class StyleShape {
     shape.LeftArm = leftArm;
     shape.RightArm = rightArm;
     shape.FootLock = footLock;
+    shape.HandContacts = handContacts;
     return true;
   }
 }

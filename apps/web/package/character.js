@@ -12,7 +12,7 @@ import {
 const kLoops = ['off', 'auto', 'on'];
 const kNeutralShape = {
   strength: 1, posture: 1, dynamics: 1, timing: 1, legs: 1, torso: 1, leftArm: 1, rightArm: 1,
-  footLock: 1,
+  footLock: 1, handContacts: 1,
 };
 const kStylizing = { easeSeconds: 0.15, smoothingSeconds: 0.04, holdFeet: true, styleRoot: true,
   maxSpeed: 15, gestureRate: 1, gestureSeed: 0 };

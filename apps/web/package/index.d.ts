@@ -101,6 +101,8 @@ export interface Shape {
   rightArm: number;
   /** 0 to 1. */
   footLock: number;
+  /** How firmly hands keep what they touch, 0 to 1. */
+  handContacts: number;
 }
 
 /** One joint of your skeleton. */

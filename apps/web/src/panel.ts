@@ -43,6 +43,7 @@ const kSwitchTitles: Record<Switch, [string, string]> = {
   leftArm: ['Left arm', 'Apply the style to the left arm'],
   rightArm: ['Right arm', 'Apply the style to the right arm'],
   feet: ['Foot lock', 'Planted feet stay in place'],
+  hands: ['Hand contacts', 'Hands keep what they touch'],
   trail: ['Foot trails', 'Paths of the toes'],
   onion: ['Past poses', 'Poses of the last second (N)'],
 };
@@ -143,7 +144,7 @@ export function buildPanel(page: Page) {
       ...switches(kRegions)),
     element('h2', {}, 'Ground'),
     element('div', { class: 'chips', role: 'group', 'aria-label': 'Ground' },
-      ...switches(['feet', 'trail', 'onion'])));
+      ...switches(['feet', 'hands', 'trail', 'onion'])));
   find('#views').append(...(Object.keys(kViewTitles) as View[]).map((view) =>
     toggle(kViewTitles[view], 'View', (s) => s.view === view, store, () => ({ view }))));
   store.listen((settings) => {

@@ -10,7 +10,7 @@ export const kRegions = ['legs', 'torso', 'leftArm', 'rightArm'] as const;
 export const kAmounts = ['strength', 'posture', 'dynamics', 'timing', 'gestures'] as const;
 export const kTempos = ['steps', 'all', 'off'] as const satisfies readonly Timing[];
 export const kViews = ['styled', 'side', 'over'] as const;
-const kSwitches = [...kRegions, 'feet', 'trail', 'onion'] as const;
+const kSwitches = [...kRegions, 'feet', 'hands', 'trail', 'onion'] as const;
 export type Switch = (typeof kSwitches)[number];
 export type View = (typeof kViews)[number];
 
@@ -35,7 +35,7 @@ export const kDefaults: Readonly<Settings> = {
   sides: {},
   removed: '',
   strength: 1, posture: 1, dynamics: 1, timing: 1, gestures: 1, tempo: 'steps',
-  legs: true, torso: true, leftArm: true, rightArm: true, feet: true,
+  legs: true, torso: true, leftArm: true, rightArm: true, feet: true, hands: true,
   view: 'side',
   trail: true,
   onion: false,
@@ -130,7 +130,8 @@ export function fromAddress(text: string, styles: readonly string[],
 export function shapeOf(settings: Settings): Partial<Shape> {
   const { posture, dynamics, timing } = settings;
   const regions = Object.fromEntries(kRegions.map((key) => [key, Number(settings[key])]));
-  return { posture, dynamics, timing, ...regions, footLock: Number(settings.feet) };
+  return { posture, dynamics, timing, ...regions, footLock: Number(settings.feet),
+    handContacts: Number(settings.hands) };
 }
 
 const kTogether = 500;  // Milliseconds; closer changes, as in a drag, are undone together.

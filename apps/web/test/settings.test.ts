@@ -135,6 +135,7 @@ describe('the shape', () => {
   it('turns switches into weights', () => {
     expect(shapeOf({ ...kDefaults, leftArm: false, feet: false, dynamics: 0.5 })).toEqual({
       posture: 1, dynamics: 0.5, timing: 1, legs: 1, torso: 1, leftArm: 0, rightArm: 1, footLock: 0,
+      handContacts: 1,
     });
   });
 });

@@ -7,9 +7,9 @@
 #include "base/elementary.h"
 #include "pose/contacts.h"
 #include "pose/limb.h"
+#include "rig/beyond_range.h"
 #include "rig/canonical_body.h"
 #include "style/shape.h"
-#include "style/stages/beyond_range.h"
 
 namespace panache {
 namespace {
@@ -69,6 +69,9 @@ Vec3 seen_in(const Frame& frame, Vec3 v) {
   return {dot(v, frame.x), dot(v, frame.y), dot(v, frame.z)};
 }
 
+constexpr std::array<float, 2> kOutward = {1, -1};  // Along x, of left and right.
+constexpr int kHalvings = 6;  // Of the share of a held leg that is taken back.
+
 // A reference joint for limbs, and its frame in the input, heading frame.
 struct Base {
   HumanJoint joint;
@@ -117,8 +120,32 @@ class Limits {
   void keep_swing(const Base& base, HumanJoint joint, Vec3 direction, const Swings& swings,
                   float side, HumanJoint first, HumanJoint last, float& share) {
     ease(share, swing_share(base, joint, direction, swings, side));
-    if (share == 0) return;
-    turn(base, changed(base, joint, direction), seen_in(base.frame, direction), share, first, last);
+    take_back(base, joint, direction, share, first, last);
+  }
+  // The same, and at once what is beyond the limit after that.
+  void hold_swing(const Base& base, HumanJoint joint, Vec3 direction, const Swings& swings,
+                  float side, HumanJoint first, HumanJoint last, float& share) {
+    keep_swing(base, joint, direction, swings, side, first, last, share);
+    take_back(base, joint, direction, swing_share(base, joint, direction, swings, side), first,
+              last);
+  }
+
+  // How far the thigh or the knee of a leg is beyond both its limit and the input; radians.
+  float leg_beyond(const Base& base, size_t side) const {
+    const HumanJoint upper = kUpperLegs[side], lower = kLowerLegs[side];
+    const Vec3 upper_way = way(upper, lower), lower_way = way(lower, kAnkles[side]);
+    const auto beyond = [&](Vec3 thigh, Vec3 shin) {
+      const Vec3 out = {thigh.x * kOutward[side], thigh.y, thigh.z};
+      const Bend bend = unsafe_bend_of(thigh, shin, kKneeHinge);
+      const float knee = std::max(bend.angle - kKneeHinge.most, bend.wrong - kKneeHinge.back);
+      return dot(out, kHipSwings.rest) < kHipSwings.safe
+                 ? std::max(swing_beyond(out, kHipSwings), knee)
+                 : knee;
+    };
+    const float out = beyond(changed(base, upper, upper_way), changed(base, lower, lower_way));
+    if (!(out > 0)) return out;
+    return out -
+           std::max(0.0f, beyond(seen_in(base.frame, upper_way), seen_in(base.frame, lower_way)));
   }
 
   // The same for a hinge between two limbs, from the joint of the lower one on.
@@ -163,6 +190,13 @@ class Limits {
   Vec3 changed(const Base& base, HumanJoint joint, Vec3 direction) const {
     return seen_in(base.frame, rotate(conjugate(of(base.joint)), rotate(of(joint), direction)));
   }
+  // Takes back that share of the turn of a direction of the input from all joints from `first` to
+  // `last`.
+  void take_back(const Base& base, HumanJoint joint, Vec3 direction, float share, HumanJoint first,
+                 HumanJoint last) {
+    if (share == 0) return;
+    turn(base, changed(base, joint, direction), seen_in(base.frame, direction), share, first, last);
+  }
   // Turns all joints from `first` to `last` by a share of the rotation that takes the direction
   // `from` to `to`, both relative to the base.
   void turn(const Base& base, Vec3 from, Vec3 to, float share, HumanJoint first, HumanJoint last) {
@@ -187,8 +221,6 @@ class Limits {
   BodyChange& change_;
 };
 
-constexpr std::array<float, 2> kOutward = {1, -1};  // Along x, of left and right.
-
 }  // namespace
 
 void Anatomy::step(const HeadingBody& body, const Rig& rig, const StepTime& time,
@@ -210,22 +242,40 @@ void Anatomy::step(const HeadingBody& body, const Rig& rig, const StepTime& time
   for (size_t side = 0; side < 2; ++side) {
     const HumanJoint upper = kUpperLegs[side], lower = kLowerLegs[side];
     const Vec3 upper_way = limits.way(upper, lower), lower_way = limits.way(lower, kAnkles[side]);
-    limits.keep_swing(below, upper, upper_way, kHipSwings, kOutward[side], upper, kToes[side],
+    limits.hold_swing(below, upper, upper_way, kHipSwings, kOutward[side], upper, kToes[side],
                       hips_[side]);
     limits.keep_hinge(below, upper, upper_way, lower, lower_way, kKneeHinge, kToes[side],
                       knees_[side]);
   }
 }
 
-void ThighWatch::step(const HeadingBody& body, const StepTime& time,
-                      const BodyChange& change) noexcept {
-  BodyChange same = change;
-  const Limits limits(body, time, same);
+void keep_held_legs(const HeadingBody& body, const BodyChange& free, const StepTime& time,
+                    std::array<float, 2>& released, BodyChange& change) noexcept {
+  Limits limits(body, time, change);
   const Base base = limits.hips_base();
   for (size_t side = 0; side < 2; ++side) {
-    const HumanJoint upper = kUpperLegs[side];
-    limits.ease(shares_[side], limits.swing_share(base, upper, limits.way(upper, kLowerLegs[side]),
-                                                  kHipSwings, kOutward[side]));
+    const int upper = index(kUpperLegs[side]), lower = index(kLowerLegs[side]);
+    const Quat held_upper = change.rotations[upper], held_lower = change.rotations[lower];
+    float& share = released[side];
+    approach(share, 0, time.gain(kGiveSeconds), 1e-4f);
+    if (held_upper == free.rotations[upper] && held_lower == free.rotations[lower]) continue;
+    const auto beyond_at = [&](float released_by) {
+      change.rotations[upper] = nlerp(held_upper, free.rotations[upper], released_by);
+      change.rotations[lower] = nlerp(held_lower, free.rotations[lower], released_by);
+      return limits.leg_beyond(base, side);
+    };
+    const float held = beyond_at(share);
+    if (!(held > 0)) continue;
+    const float allowed = std::max(beyond_at(1), 0.0f);
+    if (held > allowed) {
+      float less = share;
+      share = 1;
+      for (int i = 0; i < kHalvings; ++i) {
+        const float middle = (share + less) / 2;
+        (beyond_at(middle) > allowed ? less : share) = middle;
+      }
+    }
+    beyond_at(share);
   }
 }
 

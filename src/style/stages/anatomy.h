@@ -12,8 +12,9 @@ namespace panache {
 // Reduces a change of torso, neck, shoulders, elbows, wrists, hips and knees that exceeds the human
 // range of motion while the input does not: by nothing 10 degrees before the limit, up to nearly
 // all. A limb thus stays between its directions in the input and in the style. The reductions rise
-// gradually and fall more slowly, so that nothing pops. Joints of legs and torso turn by at most 90
-// degrees relative to their parents; more would be another motion. Unchanged joints stay identical.
+// gradually and fall more slowly, so that nothing pops; thighs, whose excess is small then, go back
+// at once. Joints of legs and torso turn by at most 90 degrees relative to their parents; more
+// would be another motion. Unchanged joints stay identical.
 class Anatomy {
  public:
   void reset() noexcept { *this = {}; }
@@ -33,23 +34,11 @@ class Anatomy {
   std::array<float, 2> shoulders_{}, elbows_{}, wrists_{}, hips_{}, knees_{};
 };
 
-// The reduction that Anatomy would apply at each hip joint after the feet are held, which may turn
-// a thigh further than the style does.
-class ThighWatch {
- public:
-  void reset() noexcept { *this = {}; }
-  void step(const HeadingBody& body, const StepTime& time, const BodyChange& change) noexcept;
-  // 0 to 1, eased; left, right.
-  float share(size_t side) const noexcept { return shares_[side]; }
-
-  // Calls visit(member) for everything that tells one character from another.
-  template <class Self, class Visit>
-  static void visit_state(Self& self, Visit&& visit) {
-    visit(self.shares_);
-  }
-
- private:
-  std::array<float, 2> shares_{};
-};
+// Turns the legs of `change`, whose feet are held, back towards `free`, the same change before
+// that, as far as thighs and knees need it to stay within their range: at once, so that no step
+// leaves them beyond it. `released`: how far each leg was turned back at the last step, 0 to 1; it
+// falls slowly, so that a leg at its limit does not flutter. Left, right.
+void keep_held_legs(const HeadingBody& body, const BodyChange& free, const StepTime& time,
+                    std::array<float, 2>& released, BodyChange& change) noexcept;
 
 }  // namespace panache

@@ -36,7 +36,7 @@ void carry_out(OutputFilter& filter, StageWork& work) noexcept {
 
 void carry_out(RootMotion& root, StageWork& work) noexcept {
   if (work.options.root) {
-    root.step(*work.delta, work.asked.gate, work.pull, work.observer, work.window, work.time);
+    root.step(*work.delta, work.asked.gate, work.observer, work.window, work.time);
   }
   work.root = root.offset();
 }
@@ -89,8 +89,8 @@ void carry_out(FootStance& stance, StageWork& work) noexcept {
 }
 
 void carry_out(HandContacts& hands, StageWork& work) noexcept {
-  if (!work.options.hold_hands) return;
-  hands.step(work.body, work.arms(), work.time, work.joints, work.change);
+  hands.step(work.body, work.asked.shape->hand_contacts, work.arms(), work.time, work.joints,
+             work.change);
   work.holds = hands.holds();
 }
 
@@ -108,8 +108,7 @@ void ChangeStages::reset() noexcept {
 void ChangeStages::step(const AskedChange& asked, const StageOptions& options, float flight,
                         const Observer& observer, const InputWindow& window, const StepTime& time,
                         StageClock* clock) noexcept {
-  const Vec3 pull = row_.get<HeldFeet>().pull();
-  StageWork work{asked, options, flight, observer, window, time, change_, pull};
+  StageWork work{asked, options, flight, observer, window, time, change_};
   auto number = static_cast<size_t>(Stage::first_of_row);
   row_.each([&](auto& stage) {
     carry_out(stage, work);

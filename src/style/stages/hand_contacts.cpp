@@ -41,6 +41,9 @@ constexpr float kWristTurn = 0.6f;
 // in the input and kFolded of its length: with the wrist at the shoulder the elbow has no defined
 // side.
 constexpr float kKeptFold = 0.9f, kFolded = 0.4f;
+// Metres: a hand on hips or thighs goes with a style that moves it further than the second, and
+// stays with one that moves it less than the first.
+constexpr float kStyleKeeps = 0.1f, kStyleMoves = 0.25f;
 constexpr float kNothing = 1e-5f;  // Metres: no correction.
 
 // 1 at `near` and nearer, 0 from `far` on.
@@ -73,7 +76,7 @@ void ease(float& hold, float wanted, float take, float give) {
 
 }  // namespace
 
-void HandContacts::watch(const BodyPose& body, const StepTime& time) noexcept {
+void HandContacts::watch(const BodyPose& body, float firmness, const StepTime& time) noexcept {
   const HumanPositions& joints = body.joints;
   const auto at = [&](HumanJoint joint) { return joints[index(joint)]; };
   const float take = time.gain(kTakeSeconds), give = time.gain(kGiveSeconds);
@@ -86,7 +89,7 @@ void HandContacts::watch(const BodyPose& body, const StepTime& time) noexcept {
   // Hands hanging next to a narrow body are near each other, too.
   const float hang = hangs(joints, 0, up) * hangs(joints, 1, up);
   const float apart = length(at(right_hand) - at(left_hand)) * (1 + kBesides * hang);
-  ease(hands_, arm > 0 ? hands_nearness(apart / arm) : 0.0f, take, give);
+  ease(hands_, arm > 0 ? firmness * hands_nearness(apart / arm) : 0.0f, take, give);
 
   const auto raised = [&](HumanJoint hip, HumanJoint knee) {
     return nearness(-dot(normalized(at(knee) - at(hip)), up), kRaised, kHanging);
@@ -96,8 +99,8 @@ void HandContacts::watch(const BodyPose& body, const StepTime& time) noexcept {
   for (int side = 0; side < 2; ++side) {
     const Vec3 wrist = joints[index(kHands[side])];
     const float off_head = length(wrist - at(HumanJoint::head));
-    ease(holds_[side][Part::head], has_head(joints) ? nearness(off_head, kAtHead, kOffHead) : 0.0f,
-         take, give);
+    ease(holds_[side][Part::head],
+         has_head(joints) ? firmness * nearness(off_head, kAtHead, kOffHead) : 0.0f, take, give);
     const float reach = length(wrist - joints[index(kUpperArms[side])]);
     const float bent =
         nearness(reach / std::max(arm_length(joints, side), 1e-6f), kBent, kStraight);
@@ -115,29 +118,36 @@ void HandContacts::watch(const BodyPose& body, const StepTime& time) noexcept {
       }
       const float near = p == 0 ? bent * nearness(length(places[p]), kOnHips, kOffHips)
                                 : thighs[p - 1] * nearness(length(places[p]), kOnThigh, kOffThigh);
-      ease(holds_[side][Part::hips + p], near * nearness(speed, kRestingHand, kPassingHand), rest,
-           give);
+      ease(holds_[side][Part::hips + p],
+           firmness * near * nearness(speed, kRestingHand, kPassingHand), rest, give);
     }
     places_[side] = places;
   }
 }
 
+float HandContacts::hold(int side, int part) const noexcept {
+  const float style = part == Part::head ? 1 : nearness(moved_[side], kStyleKeeps, kStyleMoves);
+  return holds_[side][part] * style;
+}
+
 HandHolds HandContacts::holds() const noexcept {
   HandHolds holds;
   holds.together = hands_;
-  for (size_t side = 0; side < 2; ++side) {
-    holds.by_body[side] = *std::max_element(holds_[side].begin(), holds_[side].end());
+  for (int side = 0; side < 2; ++side) {
+    for (int p = 0; p < kParts; ++p) {
+      holds.by_body[side] = std::max(holds.by_body[side], hold(side, p));
+    }
   }
   return holds;
 }
 
-void HandContacts::step(const HeadingBody& body, std::array<float, 2> amounts, const StepTime& time,
-                        HumanPositions& joints, BodyChange& change) noexcept {
-  watch(body, time);
-  const HandHolds holds = this->holds();
-  const float most = std::max({holds.together, holds.by_body[0], holds.by_body[1]});
-  if (!(std::max(amounts[0], amounts[1]) > 0 && most > 0)) {
+void HandContacts::step(const HeadingBody& body, float firmness, std::array<float, 2> amounts,
+                        const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept {
+  watch(body, firmness, time);
+  const bool any = hands_ > 0 || holds_ != Holds{};
+  if (!(std::max(amounts[0], amounts[1]) > 0 && any)) {
     elbows_ = {};
+    moved_ = {-1, -1};
     return;
   }
 
@@ -164,13 +174,25 @@ void HandContacts::step(const HeadingBody& body, std::array<float, 2> amounts, c
     wrist.now = joints[index(kHands[side])];
     wrist.input = before(kHands[side]);
     wrist.turn = turned(kHands[side]);
-    wrist.held = holds.by_body[side];
+    float off = 0, resting = 0;
+    for (int p = Part::hips; p < kParts; ++p) {
+      const float there = holds_[side][p];
+      if (there > 0) off += there * length(carried(kCarriers[p], wrist.input) - wrist.now);
+      resting += there;
+    }
+    if (resting > 0) {
+      float& moved = moved_[side];
+      moved += (moved < 0 ? 1.0f : time.gain(kHandRestSeconds)) * (off / resting - moved);
+    } else {
+      moved_[side] = -1;
+    }
     Vec3 sum;
     Quat turns{0, 0, 0, 0};
     float weights = 0;
     for (int p = 0; p < kParts; ++p) {
-      const float hold = holds_[side][p];
+      const float hold = this->hold(side, p);
       if (!(hold > 0)) continue;
+      wrist.held = std::max(wrist.held, hold);
       sum += carried(kCarriers[p], wrist.input) * hold;
       Quat turn = turned(kCarriers[p]);
       const float s = dot(turn, turns) < 0 ? -hold : hold;

@@ -13,16 +13,16 @@ namespace panache {
 
 // If a wrist is near the other wrist, the head, the hips or a thigh in the input, the arm keeps
 // that distance in the changed pose. A contact eases in and out with the distance in the input and
-// over time. Hands on hips and thighs must also rest there, and the arms must not just hang. The
-// rest of the body and the side of the elbows keep the style. Without contacts nothing changes at
-// all.
+// over time. Hands on hips and thighs must also rest there, and the arms must not just hang; as
+// they are posture, a style that moves the arm away takes the hand along. The rest of the body and
+// the side of the elbows keep the style. Without contacts nothing changes at all.
 class HandContacts {
  public:
   void reset() noexcept { *this = {}; }
-  // `joints`: changed_joints() of `body` and `change`; updates the arms. `amounts`: how active any
-  // style is for the left and the right arm, 0 to 1.
-  void step(const HeadingBody& body, std::array<float, 2> amounts, const StepTime& time,
-            HumanPositions& joints, BodyChange& change) noexcept;
+  // `firmness`: of all contacts, 0 to 1. `amounts`: how active any style is for the left and the
+  // right arm, 0 to 1. `joints`: changed_joints() of `body` and `change`; updates the arms.
+  void step(const HeadingBody& body, float firmness, std::array<float, 2> amounts,
+            const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept;
 
   // How much each hand keeps a contact at the last step.
   HandHolds holds() const noexcept;
@@ -31,7 +31,7 @@ class HandContacts {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.hands_), visit(self.holds_), visit(self.places_), visit(self.speeds_);
-    visit(self.elbows_);
+    visit(self.elbows_), visit(self.moved_);
   }
 
  private:
@@ -40,7 +40,9 @@ class HandContacts {
   static constexpr int kParts = 4;
   using Holds = std::array<std::array<float, kParts>, 2>;  // [sides][parts]
 
-  void watch(const BodyPose& body, const StepTime& time) noexcept;
+  void watch(const BodyPose& body, float firmness, const StepTime& time) noexcept;
+  // How much a wrist keeps its contact with a part of the body, 0 to 1.
+  float hold(int side, int part) const noexcept;
 
   float hands_ = 0;  // Contact of the wrists, 0 to 1, eased.
   Holds holds_{};    // Other contacts, likewise.
@@ -49,6 +51,9 @@ class HandContacts {
   std::array<std::array<Vec3, 3>, 2> places_{};
   std::array<std::array<float, 3>, 2> speeds_{};
   std::array<ArmSide, 2> elbows_{};
+  // How far the style would move each wrist from the hips and thighs that it rests on, metres,
+  // smoothed; negative without such a contact.
+  std::array<float, 2> moved_ = {-1, -1};
 };
 
 }  // namespace panache

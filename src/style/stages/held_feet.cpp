@@ -5,22 +5,21 @@
 #include "style/stages/add_gesture.h"
 
 namespace panache {
-
 void HeldFeet::step(StageWork& work) noexcept {
   const BodyPose& input = work.now.world;
   for (size_t f = 0; f < kFeet; ++f) {
     const float height = input.positions[index(kToes[f])].y;
     const float planted = planted_near_floor(work.asked.contacts[f], height);
-    // A foot is released if holding it turns the thigh further than a hip can; a resting foot is
-    // planted, whatever the network's output.
-    const float held = planted * ((1 - thighs_.share(f)) * (1 - share_lifted(work.lift)));
+    // A resting foot is planted, whatever the network's output.
+    const float held = planted * (1 - share_lifted(work.lift));
     contacts_[f] = std::max(held, work.resting[f]);
   }
   if (work.options.foot_lock) {
+    const BodyChange free = work.change;
     lock_.step(input, work.joints, contacts_, work.resting,
                work.asked.amount * work.asked.shape->foot_lock,
                {static_cast<float>(work.time.input), work.time.output}, work.change);
-    thighs_.step(work.body, work.time, work.change);
+    keep_held_legs(work.body, free, work.time, released_, work.change);
   }
   changed_legs(work.body, work.change, work.joints);
   legs_.step(work.body, work.asked.amount, work.stepping, contacts_, work.time, work.joints,

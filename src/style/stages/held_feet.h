@@ -15,8 +15,6 @@ class HeldFeet {
   void reset() noexcept { *this = {}; }
   // Writes contacts, change and joints.
   void step(StageWork& work) noexcept;
-  // See FootLock::pull().
-  Vec3 pull() const noexcept { return lock_.pull(); }
   // Probability that each foot is planted and held, at the last step.
   std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
 
@@ -24,16 +22,15 @@ class HeldFeet {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     FootLock::visit_state(self.lock_, visit);
-    ThighWatch::visit_state(self.thighs_, visit);
     LegsApart::visit_state(self.legs_, visit);
-    visit(self.contacts_);
+    visit(self.contacts_), visit(self.released_);
   }
 
  private:
   FootLock lock_;
-  ThighWatch thighs_;
   LegsApart legs_;  // Applied after the feet are held.
   std::array<float, kFeet> contacts_{};
+  std::array<float, kFeet> released_{};  // See keep_held_legs().
 };
 
 }  // namespace panache

@@ -16,16 +16,12 @@ constexpr float kMaxShortened = 0.8f, kMaxStretched = 1.5f;
 // A body that goes back and forth over this many seconds, as a boxer does, goes nowhere.
 constexpr float kTravelSeconds = 3;
 constexpr float kNoSpeed = 0.01f;  // m/s
-// How far a planted foot may be ahead of its position in the style, the time in which the body
-// catches up with the rest, and the time constant of that speed, which prevents jerks.
-constexpr float kBehind = 0.02f;  // Metres.
-constexpr float kBehindSeconds = 0.05f, kEaseSeconds = 0.1f;
 // A style turns the body aside by less than this.
 constexpr float kMaxTurn = 0.4f;  // Radians.
 
 }  // namespace
 
-void RootMotion::step(const StyleDelta& delta, float gate, Vec3 pull, const Observer& observer,
+void RootMotion::step(const StyleDelta& delta, float gate, const Observer& observer,
                       const InputWindow& window, const StepTime& time) noexcept {
   if (time.first) {
     climb_.step(observer.now().world, {}, time);
@@ -58,16 +54,7 @@ void RootMotion::step(const StyleDelta& delta, float gate, Vec3 pull, const Obse
   const Vec3 way = observer.now().root.position - observer.last_root().position;
   drift_ += rotate(rotation_y(turn_), way) - way;
   const float most = speed > 0 ? kMaxStretched : 0.0f;  // Backwards, or the way would not close.
-  const Vec3 turned = rotate(rotation_y(turn_), way);
-  const float wanted = std::clamp(share, -kMaxShortened, most), far = length(turned);
-  drift_ += turned * wanted;
-  // A style that shortens the way more than the steps would drag the planted foot: the body catches
-  // up with it, by at most that reduction of the way.
-  const float behind = far > 0 ? std::max(0.0f, dot(pull, turned) / far - kBehind) : 0.0f;
-  catching_up_ += time.gain(kEaseSeconds) * (behind / kBehindSeconds - catching_up_);
-  if (far > 0 && wanted < 0) {
-    drift_ += turned * std::min(-wanted, catching_up_ * time.output / far);
-  }
+  drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMaxShortened, most);
   climb_.step(observer.now().world, drift_ + sway_, time);
 }
 

@@ -23,8 +23,8 @@ struct RootOffset {
 class RootMotion {
  public:
   void reset() noexcept { *this = RootMotion(); }
-  // `gate`: how well the motion is known, 0 to 1; `pull`: see FootLock::pull().
-  void step(const StyleDelta& delta, float gate, Vec3 pull, const Observer& observer,
+  // `gate`: how well the motion is known, 0 to 1.
+  void step(const StyleDelta& delta, float gate, const Observer& observer,
             const InputWindow& window, const StepTime& time) noexcept;
   RootOffset offset() const noexcept {
     return {drift_ + sway_ + Vec3{0, climb_.height(), 0}, turn_};
@@ -33,16 +33,15 @@ class RootMotion {
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.drift_), visit(self.sway_), visit(self.turn_), visit(self.catching_up_);
+    visit(self.drift_), visit(self.sway_), visit(self.turn_);
     visit(self.mean_forward_), visit(self.mean_speed_);
     Climb::visit_state(self.climb_, visit);
   }
 
  private:
-  Vec3 drift_;             // Along the way, world, metres;
-  Vec3 sway_;              // to the side, likewise,
-  float turn_ = 0;         // and to the heading, radians; both fade.
-  float catching_up_ = 0;  // Towards the planted feet, m/s.
+  Vec3 drift_;      // Along the way, world, metres;
+  Vec3 sway_;       // to the side, likewise,
+  float turn_ = 0;  // and to the heading, radians; both fade.
   // The input's mean speed over the last seconds, m/s: forward, and in any direction.
   float mean_forward_ = 0, mean_speed_ = 0;
   Climb climb_;

@@ -32,7 +32,7 @@ struct AskedChange {
 
 // How changes are carried out, see StylizerOptions.
 struct StageOptions {
-  bool root = true, foot_lock = true, hold_hands = true;
+  bool root = true, foot_lock = true;
   bool tempo_everywhere = false;  // Otherwise only while the feet step.
 };
 
@@ -46,7 +46,6 @@ struct StageWork {
   const InputWindow& window;
   const StepTime& time;
   BodyChange& change;  // From the shape stage on, the change of the input.
-  Vec3 pull;           // Of a planted foot at the last step, see FootLock::pull().
 
   const Observation& now = observer.now();
   HeadingBody body = now.world;       // The input, heading frame, metres.

@@ -47,14 +47,15 @@ TEST(JointLimits, arms_may_cross_in_front_and_reach_the_back) {
 
 TEST(JointLimits, knees_bend_backwards_only) {
   expect_inside({{left_lower_leg, kX, 140}});
-  expect_beyond({{left_lower_leg, kX, -60}}, left_lower_leg, 60 - 10 - 20);
-  expect_beyond({{right_lower_leg, kX, -60}}, right_lower_leg, 60 - 10 - 20);
-  expect_beyond({{right_lower_leg, kX, 170}}, right_lower_leg, 170 - 135 - 20);
+  expect_beyond({{left_lower_leg, kX, -60}}, left_lower_leg, 60 - 2 - 20);
+  expect_beyond({{right_lower_leg, kX, -60}}, right_lower_leg, 60 - 2 - 20);
+  expect_beyond({{right_lower_leg, kX, 170}}, right_lower_leg, 170 - 140 - 20);
 }
 
 TEST(JointLimits, knees_of_a_raised_leg_bend_downwards) {
   expect_inside({{left_upper_leg, kX, -100}, {left_lower_leg, kX, 100}});
-  expect_beyond({{left_upper_leg, kX, -100}, {left_lower_leg, kX, -70}}, left_lower_leg, 40);
+  expect_beyond({{left_upper_leg, kX, -100}, {left_lower_leg, kX, -70}}, left_lower_leg,
+                70 - 2 - 20);
 }
 
 TEST(JointLimits, elbows_bend_forwards_only) {

@@ -137,7 +137,8 @@ test('the tempo of the style is taken where the feet step, everywhere or nowhere
 
 test('a part of the body is switched off and on', async () => {
   for (const [name, key] of [['Legs', 'legs'], ['Torso', 'torso'], ['Left arm', 'leftArm'],
-    ['Right arm', 'rightArm'], ['Foot lock', 'footLock']]) {
+    ['Right arm', 'rightArm'], ['Foot lock', 'footLock'],
+    ['Hand contacts', 'handContacts']]) {
     await button(name).click();
     assert.equal((await told(tab)).shape[key], 0);
     assert.equal(await button(name).getAttribute('aria-pressed'), 'false');

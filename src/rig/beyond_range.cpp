@@ -1,4 +1,4 @@
-#include "style/stages/beyond_range.h"
+#include "rig/beyond_range.h"
 
 #include <algorithm>
 #include <cmath>

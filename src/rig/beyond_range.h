@@ -1,5 +1,5 @@
 #pragma once
-// How far a limb exceeds the human range of motion. Private to the folder.
+// How far a limb exceeds the human range of motion.
 
 #include <numbers>
 
