@@ -308,8 +308,9 @@ class FbxEncoder {
       connect(id, copy);
       for (const FbxConnection* target : kept) connect(id, id_of(target->parent), target->property);
       for (const FbxConnection& link : node.curve_links) {
-        const int64_t curve = new_id();
         const FbxNode& old = *objects().at(link.child);
+        if (!read_fbx_curve(tree_, old)) continue;  // A reader may refuse the file for its sake.
+        const int64_t curve = new_id();
         FbxNewNode made = copy_object(old, curve);
         std::vector<float> values;
         bool are_steps = false;

@@ -109,7 +109,7 @@ constexpr double kMeanDeg = 0.2, kMaxDeg = 4.5;
 // Where feet rest, knees bend as far as the rig's own legs need for its heels and toes to stay on
 // the floor: rigs whose thighs and shins have another ratio than the canonical body's differ there.
 // And hands keep contacts on arms as long as they are: up to 11.2 degrees at a hand.
-constexpr double kRestingMeanDeg = 0.8, kRestingMaxDeg = 12;
+constexpr double kRestingMeanDeg = 0.85, kRestingMaxDeg = 13;
 // This one's arms hang on its neck and its legs on its spine. So it is read a little differently
 // even without a style, 0.2 to 1.1 degrees in the mean, and its arms turn with the neck's share of
 // one. The promise, rounded, and a share of the mean change of styles that change more.

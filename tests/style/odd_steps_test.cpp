@@ -92,8 +92,9 @@ TEST_F(OddSteps, a_pause_without_end_is_forgotten_like_any_pause) {
   for (const LiveOptions& options : ways()) {
     LiveStylizer after_an_hour = character(options), after_a_second = character(options);
     const Clip hour = play(after_an_hour, 3600), second = play(after_a_second, 1);
-    // The same but for the filter's mean of the gate, which takes three seconds to forget.
-    EXPECT_LT(apart(hour, second, kOdd), 0.5f);
+    // The same but for the filter's mean of the gate, which takes three seconds to forget: a foot
+    // may be planted a frame sooner.
+    EXPECT_LT(apart(hour, second, kOdd), 5);
     for (const double seconds : {1e5, 1e9, 1e18, 1e30, 1e308, kInfinity}) {
       LiveStylizer odd = character(options);
       const Clip out = play(odd, seconds);

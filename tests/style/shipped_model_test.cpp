@@ -134,7 +134,7 @@ TEST(ShippedModels, every_style_keeps_the_feet_on_the_ground_and_the_body_whole)
       for (int f = 0; f < styled->clip.frames; ++f) {
         rig.read(styled->clip.pose(f), body);
         for (const HumanJoint toe : kToes) {
-          ASSERT_GT(body.joints[index(toe)].y, -0.02f)
+          ASSERT_GT(body.joints[index(toe)].y, -0.025f)
               << model->styles()[s].name << ", frame " << f;
         }
         // A gorilla's is at 0.49 m, as its takes are bent and its strength is 1.5.
