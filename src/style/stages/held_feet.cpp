@@ -2,9 +2,24 @@
 
 #include <algorithm>
 
+#include "pose/limb.h"
 #include "style/stages/add_gesture.h"
 
 namespace panache {
+// A leg that is turned back does not put its toe into the floor.
+void HeldFeet::raise_released(StageWork& work) const noexcept {
+  const float floor = toe_floor(work.body) - mid_hip(work.body).y - work.change.translation.y;
+  bool any = false;
+  for (int f = 0; f < kFeet; ++f) {
+    const float depth = floor - work.joints[index(kToes[f])].y;
+    if (!(released_[f] > 0 && depth > 0)) continue;
+    const LimbJoints leg = leg_joints(f);
+    reach_with_limb(leg, work.joints[leg.end] + Vec3{0, depth, 0}, work.joints, work.change);
+    any = true;
+  }
+  if (any) changed_legs(work.body, work.change, work.joints);
+}
+
 void HeldFeet::step(StageWork& work) noexcept {
   const BodyPose& input = work.now.world;
   for (size_t f = 0; f < kFeet; ++f) {
@@ -22,6 +37,7 @@ void HeldFeet::step(StageWork& work) noexcept {
     keep_held_legs(work.body, free, work.time, released_, work.change);
   }
   changed_legs(work.body, work.change, work.joints);
+  raise_released(work);
   legs_.step(work.body, work.asked.amount, work.stepping, contacts_, work.time, work.joints,
              work.change);
 }

@@ -27,6 +27,8 @@ class HeldFeet {
   }
 
  private:
+  void raise_released(StageWork& work) const noexcept;
+
   FootLock lock_;
   LegsApart legs_;  // Applied after the feet are held.
   std::array<float, kFeet> contacts_{};
