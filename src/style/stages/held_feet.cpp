@@ -6,7 +6,7 @@
 #include "style/stages/add_gesture.h"
 
 namespace panache {
-// A leg that is turned back does not put its toe into the floor.
+
 void HeldFeet::raise_released(StageWork& work) const noexcept {
   const float floor = toe_floor(work.body) - mid_hip(work.body).y - work.change.translation.y;
   bool any = false;

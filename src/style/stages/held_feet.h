@@ -27,6 +27,7 @@ class HeldFeet {
   }
 
  private:
+  // Where a leg was turned back, raises the toe out of the floor.
   void raise_released(StageWork& work) const noexcept;
 
   FootLock lock_;
