@@ -1,8 +1,5 @@
 // panache-lab outputs: what the stages after the networks do to any motion.
 
-#include <array>
-#include <cmath>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,24 +30,10 @@ std::string line(const std::string& name, const std::vector<double>& values, int
   return text + "\n";
 }
 
-std::vector<double> values_of(const std::vector<OodRow>& rows, double OodRow::*value) {
-  std::vector<double> values;
-  for (const OodRow& row : rows) values.push_back(row.*value);
-  return values;
-}
-
 double jumps(const std::vector<OodRow>& rows) {
   double sum = 0;
   for (const OodRow& row : rows) sum += row.jumps;
   return sum;
-}
-
-double shot_90(const std::vector<OodRow>& rows, size_t measure) {
-  std::vector<double> values;
-  for (const OodRow& row : rows) {
-    values.insert(values.end(), row.shot[measure].begin(), row.shot[measure].end());
-  }
-  return quantile(values, 0.9);
 }
 
 std::string table(const std::vector<std::vector<OodRow>>& groups) {
@@ -80,7 +63,7 @@ std::string table(const std::vector<std::vector<OodRow>>& groups) {
   mean("the input's", &OodRow::input_skating_ratio, 100);
   for (size_t m = 0; m < kShotKeys.size(); ++m) {
     add(std::string(kShotKeys[m]) + ", 90 %", 1,
-        [&](const auto& rows) { return shot_90(rows, m); });
+        [&](const auto& rows) { return quantile(shots_of(rows, m), 0.9); });
   }
   return text;
 }

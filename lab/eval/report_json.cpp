@@ -162,13 +162,6 @@ Json signatures_json(const std::vector<OodRow>& rows) {
   return out;
 }
 
-std::vector<double> values_of(const std::vector<OodRow>& rows, double OodRow::*value) {
-  std::vector<double> values;
-  values.reserve(rows.size());
-  for (const OodRow& row : rows) values.push_back(row.*value);
-  return values;
-}
-
 Json ood_summary_json(const std::vector<OodRow>& rows) {
   const auto mean = [&](double OodRow::*value) {
     return number(finite_mean(values_of(rows, value)));
@@ -240,13 +233,9 @@ Json ood_by_clip_json(const std::vector<OodRow>& rows) {
 Json shots_json(const std::vector<OodRow>& rows) {
   Json out;
   for (size_t i = 0; i < kShotKeys.size(); ++i) {
-    std::vector<double> values, over;
-    for (const OodRow& row : rows) {
-      for (const float value : row.shot[i]) {
-        values.push_back(value);
-        over.push_back(value > 2);
-      }
-    }
+    const std::vector<double> values = shots_of(rows, i);
+    std::vector<double> over;
+    for (const double value : values) over.push_back(value > 2);
     out[kShotKeys[i]] = {{"frames", values.size()},
                          {"median", number(quantile(values, 0.5))},
                          {"p90", number(quantile(values, 0.9))},

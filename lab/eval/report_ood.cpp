@@ -61,6 +61,21 @@ StyleSummary summarize_styles(const std::vector<OodRow>& rows) {
   return out;
 }
 
+std::vector<double> values_of(const std::vector<OodRow>& rows, double OodRow::*value) {
+  std::vector<double> values;
+  values.reserve(rows.size());
+  for (const OodRow& row : rows) values.push_back(row.*value);
+  return values;
+}
+
+std::vector<double> shots_of(const std::vector<OodRow>& rows, size_t measure) {
+  std::vector<double> values;
+  for (const OodRow& row : rows) {
+    values.insert(values.end(), row.shot[measure].begin(), row.shot[measure].end());
+  }
+  return values;
+}
+
 LegSummary summarize_legs(const std::vector<OodRow>& rows) {
   LegRange upright, crouching;
   const auto add = [](const LegRange& of_row, LegRange& sum) {

@@ -22,6 +22,10 @@ struct StyleSummary {
 };
 StyleSummary summarize_styles(const std::vector<OodRow>& rows);
 
+// One value of each row; all values of one measure of kShotKeys.
+std::vector<double> values_of(const std::vector<OodRow>& rows, double OodRow::*value);
+std::vector<double> shots_of(const std::vector<OodRow>& rows, size_t measure);
+
 // The shares of legs beyond their range, and the largest excess in degrees; see LegRange. NaN
 // without such legs.
 struct LegSummary {

@@ -12,15 +12,15 @@ from . import library, preview
 
 SHIPPED = library.SHIPPED
 MANY_STYLES = 20
-# name: (label, description, default)
+# name: (label, description, maximum)
 SHAPE = {
-    'posture': ('Posture', 'Amount of the slow part of the style', 1.0),
-    'dynamics': ('Movement', 'Amount of the fast part of the style', 1.0),
-    'timing': ('Tempo', "Of the style's own tempo; 0 keeps the frames", 1.0),
-    'torso': ('Torso', 'Amount of the style on torso and head', 1.0),
-    'legs': ('Legs', 'Amount of the style on legs and root motion', 1.0),
-    'left_arm': ('Left Arm', 'Amount of the style on the left arm', 1.0),
-    'right_arm': ('Right Arm', 'Amount of the style on the right arm', 1.0),
+    'posture': ('Posture', 'Amount of the slow part of the style', 2.0),
+    'dynamics': ('Movement', 'Amount of the fast part of the style', 2.0),
+    'timing': ('Tempo', "Of the style's own tempo; 0 keeps the frames", 2.0),
+    'torso': ('Torso', 'Amount of the style on torso and head', 2.0),
+    'legs': ('Legs', 'Amount of the style on legs and root motion', 2.0),
+    'left_arm': ('Left Arm', 'Amount of the style on the left arm', 2.0),
+    'right_arm': ('Right Arm', 'Amount of the style on the right arm', 2.0),
     'hand_contacts': ('Hand Contacts', 'How firmly hands keep what they touch', 1.0),
 }
 _model = None
@@ -189,9 +189,9 @@ def _make_groups_class():
 
 
 def _make_settings_class(styles, sides, groups):
-    fields = {name: FloatProperty(name=label, description=text, default=default, min=0, max=2,
+    fields = {name: FloatProperty(name=label, description=text, default=1, min=0, max=maximum,
                                   update=_changed)
-              for name, (label, text, default) in SHAPE.items()}
+              for name, (label, text, maximum) in SHAPE.items()}
     fields.update(
         gestures=FloatProperty(
             name='Gestures', default=1, min=0, max=10, soft_max=2, update=_changed,
