@@ -9,6 +9,10 @@ namespace {
 // The last bit of a leg's reach takes a large turn of the knee: a leg never extends beyond this
 // share of its length unless the style stretches it further.
 constexpr float kMaxReach = 0.995f;
+// The share for a knee that is bent by 140 degrees. A chain folds further only as far as the style
+// folds it: with the ankle at the hip, the knee may go anywhere.
+constexpr float kMinReach = 0.34f;
+
 }  // namespace
 
 TwoBonePlaces two_bone_places(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 out) noexcept {
@@ -39,6 +43,9 @@ TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend
   const Vec3 axis = normalized(target - root);
   const Quat swing = rotation_between(normalized(end - root, axis), axis);
   const Vec3 out = normalized(rotate(swing, bend));
+  const float whole = length(middle - root) + length(end - middle);
+  const float lacks = std::min(length(end - root), kMinReach * whole) - length(target - root);
+  if (lacks > 0) target += axis * lacks;
   return two_bone_turn(root, middle, end, two_bone_places(root, middle, end, target, out));
 }
 

@@ -89,6 +89,7 @@ void carry_out(FootStance& stance, StageWork& work) noexcept {
 }
 
 void carry_out(HandContacts& hands, StageWork& work) noexcept {
+  work.free_arms = arm_rotations(work.change);
   hands.step(work.body, work.asked.shape->hand_contacts, work.arms(), work.time, work.joints,
              work.change);
   work.holds = hands.holds();
@@ -96,6 +97,10 @@ void carry_out(HandContacts& hands, StageWork& work) noexcept {
 
 void carry_out(ArmsClear& arms, StageWork& work) noexcept {
   arms.step(work.body, work.arms(), work.holds, work.time, work.joints, work.change);
+}
+
+void carry_out(SteadyArms& arms, StageWork& work) noexcept {
+  arms.step(work.free_arms, work.time, work.change);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 #include "style/stages/stage_facts.h"
 #include "style/stages/stage_row.h"
 #include "style/stages/stage_work.h"
+#include "style/stages/steady_arms.h"
 #include "style/stages/step_watch.h"
 
 namespace panache {
@@ -47,7 +48,8 @@ using ChangeRow = StageRow<Named<StepWatch, "watch the steps">,            //
                            Named<FootStance, "keep resting feet level">,   //
                            Named<HeldFeet, "hold the feet">,               //
                            Named<HandContacts, "keep hands in contact">,   //
-                           Named<ArmsClear, "keep arms outside">>;
+                           Named<ArmsClear, "keep arms outside">,          //
+                           Named<SteadyArms, "turn arms steadily">>;
 
 class ChangeStages {
  public:

@@ -12,6 +12,7 @@
 #include "style/gesture.h"
 #include "style/shape.h"
 #include "style/stages/root_motion.h"
+#include "style/stages/steady_arms.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
 #include "style/stance.h"
@@ -60,6 +61,7 @@ struct StageWork {
   float lift = 0;                     // How far a gesture lifts both feet, metres.
   HumanPositions joints = {};  // changed_joints() of body and change, from the balance stage on.
   std::array<float, kFeet> resting{};  // How much feet keep their height, shares.
+  ArmRotations free_arms = {};         // Before contacts and the body correct them.
   HandHolds holds = {};                // Contacts that the hands keep.
 
   // How active any style is for each arm. An arm without style keeps its input.
