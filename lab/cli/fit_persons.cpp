@@ -1,5 +1,6 @@
 // panache-lab fit-persons: fits the space of persons to the neutral motion of many people.
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -59,9 +60,9 @@ int fit(const Options& options) {
   }
   // The regressions answer with too little; seeds shall differ by as much as real people.
   const auto measure = need(PersonsMeasure::create(takes, walks_of(takes, 4)));
-  const double wanted = measure.real().spread.median_cm;
-  print("real people: " + fixed(wanted, 2) + " cm apart, 90 % " +
-        fixed(measure.real().spread.p90_cm, 2) + "\n");
+  const PersonSpread& real = measure.real().spread;
+  print("real people: " + fixed(real.median_cm, 2) + " cm apart, 90 % " + fixed(real.p90_cm, 2) +
+        "\n");
   double gain = 1;
   for (int round = 0; round < kRounds; ++round) {
     const auto model =
@@ -70,7 +71,8 @@ int fit(const Options& options) {
     print("gain " + fixed(gain, 2) + ": seeds " + fixed(seeds.spread.median_cm, 2) +
           " cm apart, 90 % " + fixed(seeds.spread.p90_cm, 2) + ", told " + fixed(seeds.told, 2) +
           ", outside " + fixed(seeds.outside, 3) + "\n");
-    gain *= wanted / seeds.spread.median_cm;
+    // Real people have more outliers than a normal distribution: in the middle of both.
+    gain *= std::sqrt(real.median_cm / seeds.spread.median_cm * real.p90_cm / seeds.spread.p90_cm);
   }
   print("gain " + fixed(gain, 2) + "\n");
   for (size_t m = 0; m < models.size(); ++m) {
@@ -100,7 +102,7 @@ void add_fit_persons(CLI::App& app, int& exit_code) {
              "Combinations of activations that they read; default: 24")
       ->check(CLI::Range(16, static_cast<int>(kMaxPersonUnits)));
   add_option(*verb, "--penalty NUMBER", options->settings.penalty,
-             "Penalty of a person's regression; default: 20")
+             "Penalty of a person's regression; default: 3")
       ->check(CLI::PositiveNumber);
   verb->footer(
       "Example:\n"

@@ -64,10 +64,9 @@ PersonSpread spread_of(const std::vector<double>& distances) {
   return {quantile_of(distances, 0.5), quantile_of(distances, 0.9)};
 }
 
-// Only walks; people run as differently as they walk, but a run differs from a walk.
+// Plain walks: other ones differ by more than the person.
 bool is_walk(const Take& take) {
-  return is_gait(take) && take.row.content.find("walk") != std::string::npos &&
-         take.row.content.find("run") == std::string::npos && take.frames() >= kMinFrames;
+  return take.row.content == "walk" && take.frames() >= kMinFrames;
 }
 
 std::vector<float> numbers_of(const HumanPositions& pose) {
@@ -80,16 +79,18 @@ int told_class(const torch::Tensor& scores) {
   return static_cast<int>(torch::softmax(scores, 1).mean(0).argmax().item<int64_t>());
 }
 
-// The share of the test takes whose label is told.
+// The share of the test takes whose label is told. `shifts`: of the training takes, see
+// Discriminant, and `shift` of the test takes; or empty.
 double told(const std::vector<Take>& training, const std::vector<std::string>& labels,
-            const std::vector<Take>& test, const std::vector<std::string>& expected) {
+            const std::vector<Take>& test, const std::vector<std::string>& expected,
+            const std::vector<torch::Tensor>& shifts = {}, const torch::Tensor& shift = {}) {
   std::vector<std::string> classes = labels;
   std::sort(classes.begin(), classes.end());
   classes.erase(std::unique(classes.begin(), classes.end()), classes.end());
-  const Discriminant judge(training, labels, classes, kJudgedFrames);
+  const Discriminant judge(training, labels, classes, kJudgedFrames, shifts);
   double right = 0;
   for (size_t t = 0; t < test.size(); ++t) {
-    right += classes[static_cast<size_t>(told_class(judge.scores(test[t])))] == expected[t];
+    right += classes[static_cast<size_t>(told_class(judge.scores(test[t], shift)))] == expected[t];
   }
   return right / static_cast<double>(test.size());
 }
@@ -188,20 +189,27 @@ Result<SeedPersons> PersonsMeasure::measure(const std::shared_ptr<const Model>& 
   out.walks = static_cast<size_t>(walks);
   std::vector<double> distances;
   double outside = 0, right = 0;
+  // A person is what differs from the unchanged walk.
+  std::vector<torch::Tensor> unchanged;
+  for (const TestInput& walk : walks_) {
+    unchanged.push_back(-Discriminant::mean_statistics(walk.take, kJudgedFrames));
+  }
   for (int w = 0; w < walks; ++w) {
     std::vector<HumanPositions> poses;
     std::vector<Take> training, test;
     std::vector<std::string> labels, expected;
+    std::vector<torch::Tensor> shifts;
     for (int s = 0; s < seeds; ++s) {
       for (int other = 0; other < walks; ++other) {
         const Take& take = takes[static_cast<size_t>(s * walks + other)];
         (other == w ? test : training).push_back(take);
         (other == w ? expected : labels).push_back(std::to_string(s));
         if (other == w) poses.push_back(mean_pose(take));
+        if (other != w) shifts.push_back(unchanged[static_cast<size_t>(other)]);
       }
     }
     add_distances(poses, distances);
-    right += told(training, labels, test, expected) / walks;
+    right += told(training, labels, test, expected, shifts, unchanged[static_cast<size_t>(w)]) / walks;
     // From the mean person, who is the unchanged input.
     const HumanPositions middle = mean_pose(walks_[w].take);
     for (const HumanPositions& pose : poses) {

@@ -17,7 +17,7 @@ struct PersonSettings {
   int axes = 8;
   int units = 24;  // Combinations of activations that the axes share.
   // The cost of a squared weight of a person's regression, in variances of an activation.
-  double penalty = 20;
+  double penalty = 3;
 };
 
 // What an axis is named after, and how well it follows that, over the people it was fitted to.
