@@ -46,6 +46,9 @@ void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
              "How firmly hands keep what they touch: each other, the\nhead, hips or thighs; 0 to 1 "
              "(the default)")
       ->check(in_range(0, 1));
+  add("--energy AMOUNT", flags.shape.energy,
+      "The input's own movement of torso, head and arms: from\ncalm (0) to lively (2); default: 1, "
+      "as it is");
   add_option(verb, "--gestures RATE", flags.gestures,
              "How often the styles make their gestures: 1 as often as\nthe performers (the "
              "default), 0 never, up to 10 times as\noften. panache styles lists them")

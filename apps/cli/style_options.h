@@ -1,6 +1,6 @@
 #pragma once
 // Options shared by stylize and live: how much of a style's effects to use (--posture, --dynamics,
-// --timing, --region and --gestures), and the style to remove from the input (--remove, --neutral
+// --timing, --region, --contacts and --gestures), the energy of the input (--energy), and the style to remove from the input (--remove, --neutral
 // and --remover).
 
 #include <optional>
@@ -22,7 +22,7 @@ struct ShapeFlags {
   float gestures = 1;                // See StylizerOptions::gesture_rate.
 };
 
-// Gives `verb` the five options; `flags` must outlive it.
+// Gives `verb` these options; `flags` must outlive it.
 void add_shape_options(CLI::App& verb, ShapeFlags& flags);
 
 // Writes the shape, the timing mode and the gesture rate to `how`. Fails if a region is unknown,

@@ -16,6 +16,7 @@
 #include "messages.h"
 #include "model_path.h"
 #include "onto.h"
+#include "person_options.h"
 #include "restyle_report.h"
 #include "rig/figures.h"
 #include "rig/in_place.h"
@@ -35,6 +36,7 @@ struct StylizeOptions : MotionFlags {
   std::string strengths;  // A CSV, or empty.
   std::string model;
   RemovalFlags removal;
+  PersonFlags person;
   std::string loop = "auto";
   bool no_timing = false;
   bool no_feet = false;
@@ -45,6 +47,7 @@ struct StylizeOptions : MotionFlags {
 struct Wanted {
   std::shared_ptr<const Model> model;
   std::optional<Removal> removal;
+  std::optional<PersonWish> person;
   std::vector<StrengthWish> wishes;
   RigOptions rig;
   RestyleOptions how;
@@ -67,8 +70,18 @@ Json tracks_json(const std::vector<StrengthTrack>& tracks, const Wanted& wanted)
   return styles;
 }
 
-// "walk (old 1)", "walk (old off, limping 1 mirrored)".
-std::string result_name(const std::string& title, const Wanted& wanted) {
+// "person 7"
+std::string describe_person(const std::optional<PersonWish>& person, const std::string& input) {
+  return person ? "person " + std::to_string(person->seed_for(input)) : "";
+}
+
+Json person_json(const std::optional<PersonWish>& person, const std::string& input) {
+  if (!person) return {};
+  return {{"seed", person->seed_for(input)}, {"variety", rounded(double{person->variety})}};
+}
+
+// "walk (old 1)", "walk (old off, limping 1 mirrored, person 7)".
+std::string result_name(const std::string& title, const std::string& input, const Wanted& wanted) {
   std::string styles;
   if (wanted.removal) styles = describe(*wanted.removal);
   for (const StrengthWish& wish : wanted.wishes) {
@@ -76,6 +89,10 @@ std::string result_name(const std::string& title, const Wanted& wanted) {
     styles += (styles.empty() ? "" : ", ") + style + " " + describe(wish) +
               describe_side(side_of(wanted.how.stylizer.sides, wish.track.style));
   }
+  const std::string person = describe_person(wanted.person, input);
+  if (!person.empty()) styles += (styles.empty() ? "" : ", ") + person;
+  const double energy{wanted.how.stylizer.shape.energy};
+  if (energy != 1) styles += (styles.empty() ? "" : ", ") + ("energy " + fixed(energy, 2));
   return title + " (" + styles + ")";
 }
 
@@ -125,6 +142,10 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
   const std::vector<StrengthTrack> tracks = tracks_for(
       wanted.wishes, rig.first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
   RestyleOptions how = wanted.how;
+  if (wanted.person) {
+    how.stylizer.person = person_of_seed(*wanted.model, wanted.person->seed_for(file.input),
+                                         wanted.person->variety);
+  }
   if (figures.size() > 1) {  // They keep the same time.
     how.timing = false;
     how.loop = LoopMode::off;
@@ -143,7 +164,7 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
     restyled->clip = std::move(restyle_one(restyled->clip, other)->clip);
     if (wanted.in_place) stay_in_place(other, restyled->clip);
   }
-  NewMotion out{.name = result_name(title_of(name, file.input), wanted)};
+  NewMotion out{.name = result_name(title_of(name, file.input), file.input, wanted)};
   // Skips a leading reference pose, which is not restyled.
   const auto first = static_cast<size_t>(std::min(rig.first_frame(), clip.frames - 1));
   const RestyleFacts facts = restyle_facts(clip, rig, *restyled);
@@ -155,9 +176,13 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
                         {"seconds", restyled->clip.duration()},
                         {"removed", removed_json(removes ? wanted.removal : std::nullopt)},
                         {"styles", tracks_json(tracks, wanted)},
+                        {"person", person_json(wanted.person, file.input)},
                         {"gate", to_json(gate)},
                         {"facts", to_json(facts)}});
   file.facts.push_back(place + ": " + describe(facts));
+  if (wanted.person) {
+    file.facts.push_back(place + ": moves as " + describe_person(wanted.person, file.input));
+  }
   if (wanted.verbose) file.details.push_back(place + ": " + describe(gate));
   if (gate.eased > 0.5) file.notes.push_back(place + ": " + describe_eased(gate));
   if (wanted.in_place) stay_in_place(rig, restyled->clip);
@@ -228,7 +253,9 @@ void stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& opt
 
 // The requested strengths, from the options and the table.
 std::vector<StrengthWish> collect_wishes(const StylizeOptions& options, const Model& model) {
-  if (options.styles.empty() && options.strengths.empty() && !options.removal.given()) {
+  const bool asks_for_more = options.removal.given() || options.person.given() ||
+                             options.shape.shape.energy != 1;
+  if (options.styles.empty() && options.strengths.empty() && !asks_for_more) {
     throw Failure{missing_style(options.batch.inputs, model), kBadUsage};
   }
   std::vector<StrengthWish> wishes = need(parse_styles(options.styles, model), kBadUsage);
@@ -251,7 +278,9 @@ std::vector<StrengthWish> collect_wishes(const StylizeOptions& options, const Mo
 std::string name_styles(const StylizeOptions& options) {
   std::vector<std::string> parts;
   parts.reserve(options.styles.size() + 1);
-  if (options.styles.empty() && options.strengths.empty()) parts.emplace_back("neutral");
+  if (options.removal.given() && options.styles.empty() && options.strengths.empty()) {
+    parts.emplace_back("neutral");
+  }
   for (const std::string& style : options.styles) parts.push_back(style.substr(0, style.find('=')));
   for (const std::string& side : options.sides) {
     const std::string value = side.substr(side.find('=') + 1);
@@ -259,6 +288,10 @@ std::string name_styles(const StylizeOptions& options) {
   }
   if (!options.strengths.empty()) {
     parts.push_back(std::filesystem::path(options.strengths).stem().string());
+  }
+  if (options.person.given()) parts.push_back("person-" + options.person.person);
+  if (options.shape.shape.energy != 1) {
+    parts.push_back(options.shape.shape.energy < 1 ? "calm" : "lively");
   }
   std::string name;
   for (const std::string& part : parts) name += (name.empty() ? "" : "-") + part;
@@ -292,6 +325,7 @@ int stylize(const StylizeOptions& options) {
   need(check_sides_used(options.sides, wanted.wishes, *wanted.model), kBadUsage);
   how.stylizer.sides = need(parse_sides(options.sides, *wanted.model), kBadUsage);
   wanted.removal = read_removal(options.removal);
+  wanted.person = read_person_options(options.person, *wanted.model);
   const std::optional<CharacterFile>& onto = wanted.onto;
   if (!options.onto.file.empty())
     wanted.onto = need(CharacterFile::open(options.onto, options.batch));
@@ -326,6 +360,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
   add_option(*verb, "--model FILE", options->model,
              "Model; default: $PANACHE_MODEL, else the one shipped");
   add_removal_options(*verb, options->removal);
+  add_person_options(*verb, options->person);
   add_option(*verb, "--clip NAME", options->clip,
              "Motion to restyle, if a file has several;\ndefault: all of them");
   add_onto_options(*verb, options->onto);
@@ -349,6 +384,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
       "  panache stylize walk.bvh --style old=1           (into walk-old.bvh)\n"
       "  panache stylize walk.bvh --style limping=1 --side limping=left -o left.bvh\n"
       "  panache stylize drunk.bvh --remove drunk --style proud=1 -o proud.bvh\n"
+      "  panache stylize crowd/ --person random -o people/\n"
       "  panache stylize takes/ --style proud=0.7 --style angry=0..1 -o restyled/\n"
       "  panache stylize hero.glb --clip walk --style moping=1 -o moping-hero.glb");
   verb->callback([options, &exit_code] { exit_code = stylize(*options); });

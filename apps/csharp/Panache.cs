@@ -57,6 +57,11 @@ public sealed class Model : IDisposable {
                                                 out float side));
     return side;
   }
+  /// What each number of a person changes most, for Character.SetPerson(); empty if the model has
+  /// no persons.
+  public IReadOnlyList<string> PersonAxes { get; }
+  /// The seed of a word, such as a character's name.
+  public static uint PersonSeed(string word) => Native.panache_person_seed(Native.Utf8(word));
   /// The gestures of a style, "glances left, 1.2 s", for Character.Trigger(); often empty.
   public IReadOnlyList<string> Gestures(string style) {
     int place = FindStyle(style);
@@ -82,6 +87,11 @@ public sealed class Model : IDisposable {
     Styles = styles;
     Groups = groups;
     Sides = sides;
+    var axes = new List<string>();
+    for (int i = 0; i < Native.panache_model_person_axis_count(Handle); ++i) {
+      axes.Add(Native.Text(Native.panache_model_person_axis_name(Handle, i)));
+    }
+    PersonAxes = axes;
   }
   public static Model Load(string path) => new Model(System.IO.File.ReadAllBytes(path));
   /// The index of a style, by its name or another word for it; throws if the model has none.
@@ -155,6 +165,9 @@ public sealed class Shape {
   public float Strength = 1, Posture = 1, Dynamics = 1, Timing = 1;
   public float Legs = 1, Torso = 1, LeftArm = 1, RightArm = 1;
   public float FootLock = 1, HandContacts = 1;  // 0 to 1.
+  // From calm (0) to lively (2): the input's own movement of torso, head and arms, without a style,
+  // too.
+  public float Energy = 1;
 }
 
 /// How a character is styled; see panache_character_options.
@@ -235,6 +248,13 @@ public sealed class Character : IDisposable {
       Native.panache_character_set_side(handle, model.FindStyle(style), side);
   /// The side that a word of Model.FindSide() names.
   public void SetSide(string style, string word) => SetSide(style, model.FindSide(style, word));
+  /// Makes the character the person of a seed, in addition to its styles: 1 as far from the mean
+  /// person as real people are, 0 nobody, at most 2; eased.
+  public void SetPerson(uint seed, float amount = 1) =>
+      Native.Check(Native.panache_character_set_person(handle, seed, amount));
+  /// The same with a number for each of Model.PersonAxes.
+  public void SetPerson(float[] numbers) => Native.Check(
+      Native.panache_character_set_person_numbers(handle, numbers, numbers.Length));
   /// Removes a style from the input: its index in the model of UseRemover(), or -1 for none.
   public void SetRemoved(int style) =>
       Native.panache_character_set_removed(handle, style);
@@ -551,6 +571,18 @@ internal static class Native {
                                                              float strength);
   [DllImport(Library)]
   internal static extern void panache_character_set_side(Handle character, int style, float side);
+  [DllImport(Library)]
+  internal static extern int panache_character_set_person(Handle character, uint seed,
+                                                          float amount);
+  [DllImport(Library)]
+  internal static extern int panache_character_set_person_numbers(Handle character,
+                                                                  float[] numbers, int count);
+  [DllImport(Library)]
+  internal static extern int panache_model_person_axis_count(Handle model);
+  [DllImport(Library)]
+  internal static extern IntPtr panache_model_person_axis_name(Handle model, int axis);
+  [DllImport(Library)]
+  internal static extern uint panache_person_seed(byte[] word);
   [DllImport(Library)]
   internal static extern int panache_character_trigger(Handle character, int style, int gesture);
   [DllImport(Library)]

@@ -154,6 +154,21 @@ PANACHE_API const char* panache_model_gesture_name(const panache_model* model, i
  * nearest. Case (of A to Z) matters only if two names differ in nothing else. */
 PANACHE_API int32_t panache_model_find_style(const panache_model* model, const char* name);
 
+/* Persons: how people differ in all that they do, as a few numbers, one for each axis of the model
+ * (most of what an axis changes is its name: "arm swing"). Real people are distributed like
+ * independent standard normal numbers; 0 everywhere is their mean, which changes nothing. */
+
+/* Number of axes; 0 if the model has no persons. */
+PANACHE_API int32_t panache_model_person_axis_count(const panache_model* model);
+/* The name of an axis, valid as long as the model; NULL if the index is out of range. */
+PANACHE_API const char* panache_model_person_axis_name(const panache_model* model, int32_t axis);
+/* The person of a seed: each seed is another one, the same on every machine. `count` is
+ * panache_model_person_axis_count(). Fails if the model has no persons. */
+PANACHE_API panache_status panache_model_draw_person(const panache_model* model, uint32_t seed,
+                                                     float* numbers, int32_t count);
+/* The seed of a word, such as a character's name. */
+PANACHE_API uint32_t panache_person_seed(const char* word);
+
 /* ---- Skeletons ------------------------------------------------------------------------------ */
 
 /* A rig, with the mapping of its joints to a humanoid. Immutable. */
@@ -262,6 +277,20 @@ PANACHE_API void panache_character_set_strength(panache_character* character, in
 PANACHE_API void panache_character_set_side(panache_character* character, int32_t style,
                                             float side);
 
+/* Makes the character the person of a seed, in addition to its styles, `amount` times as far from
+ * the mean person: 0 nobody, as at first, 1 as real people differ, at most 2. Eased in as strengths
+ * are. Fails if the model has no persons, or if the amount is not 0 to 2. */
+PANACHE_API panache_status panache_character_set_person(panache_character* character, uint32_t seed,
+                                                        float amount);
+/* The same with the numbers of a person, clamped to -6 to 6. `count` is
+ * panache_model_person_axis_count(). Fails if a number is not finite. */
+PANACHE_API panache_status panache_character_set_person_numbers(panache_character* character,
+                                                                const float* numbers,
+                                                                int32_t count);
+/* Writes the numbers that were set. */
+PANACHE_API panache_status panache_character_get_person_numbers(const panache_character* character,
+                                                                float* numbers, int32_t count);
+
 /* Takes a style of the remover off the input, at the input's tempo, before the styles are put on:
  * its style "any" suits motion in an unknown style. -1: none, as at first. Eased in over
  * ease_seconds. Ignored without a remover, and for an index out of range. */
@@ -288,9 +317,12 @@ typedef struct panache_shape {
   float legs, torso, left_arm, right_arm;
   float foot_lock;     /* How firmly planted feet are held, 0 to 1. */
   float hand_contacts; /* How firmly hands keep what they touch, 0 to 1. */
+  /* From calm (0) to lively (2): the input's own movement of torso, head and arms around its mean
+   * over the last seconds. Acts without a style, too; feet and root motion keep theirs. */
+  float energy;
 } panache_shape;
 #define PANACHE_SHAPE \
-  { sizeof(panache_shape), 1, 1, 1, 1, 1, 1, 1, 1, 1, 1 }
+  { sizeof(panache_shape), 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1 }
 
 /* Sets the shape; eased in as strengths are. NULL: 1 everywhere. */
 PANACHE_API panache_status panache_character_set_shape(panache_character* character,
@@ -394,9 +426,12 @@ typedef struct panache_stylize_options {
   /* The side of each style of the model, as in panache_character_set_side(), -1 to 1; NULL: all 1.
    * [panache_model_style_count()] */
   const float* sides;
+  /* The numbers of a person, as in panache_character_set_person_numbers(); NULL: nobody.
+   * [panache_model_person_axis_count()] */
+  const float* person;
 } panache_stylize_options;
 #define PANACHE_STYLIZE_OPTIONS \
-  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15, 1, 0, NULL, 1, 0, NULL }
+  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15, 1, 0, NULL, 1, 0, NULL, NULL }
 
 /* A styled clip. */
 typedef struct panache_styled_clip panache_styled_clip;

@@ -17,6 +17,7 @@
 
 #include <panache/panache.h>
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -142,6 +143,13 @@ class Character : public Object<panache_character, panache_character_destroy> {
   // False where the model has no such gesture.
   bool trigger(int style, int gesture) noexcept {
     return panache_character_trigger(get(), style, gesture) != 0;
+  }
+  void set_person(std::uint32_t seed, float amount = 1) {
+    check(panache_character_set_person(get(), seed, amount));
+  }
+  // numbers[count]
+  void set_person(const float* numbers, int count) {
+    check(panache_character_set_person_numbers(get(), numbers, count));
   }
   void set_shape(const panache_shape& shape) { check(panache_character_set_shape(get(), &shape)); }
   void step(panache_input_pose in, double seconds, panache_output_pose out) noexcept {

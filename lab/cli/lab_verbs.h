@@ -15,6 +15,8 @@
   verb(export) \
   verb(fit_walker) \
   verb(neutral_bank) \
+  verb(fit_persons) \
+  verb(persons) \
   verb(learning) \
   verb(arrival) \
   verb(outputs)

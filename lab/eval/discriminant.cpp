@@ -62,10 +62,12 @@ torch::Tensor statistics(const Take& take, int window_frames, int hop) {
 }  // namespace
 
 Discriminant::Discriminant(const std::vector<Take>& takes, const std::vector<std::string>& labels,
-                           const std::vector<std::string>& classes, int window_frames)
+                           const std::vector<std::string>& classes, int window_frames,
+                           const std::vector<torch::Tensor>& shifts)
     : window_frames_(window_frames),
       discriminant_(rows_of_classes(takes, labels, classes, kStatistics, [&](const Take& take) {
-        return statistics(take, window_frames, kLearntHop);
+        const torch::Tensor rows = statistics(take, window_frames, kLearntHop);
+        return shifts.empty() ? rows : rows + shifts[static_cast<size_t>(&take - takes.data())];
       })) {}
 
 torch::Tensor Discriminant::scores(const Take& take, const torch::Tensor& shift) const {
@@ -74,8 +76,12 @@ torch::Tensor Discriminant::scores(const Take& take, const torch::Tensor& shift)
   return discriminant_.scores(shift.defined() ? rows + shift : rows);
 }
 
+torch::Tensor Discriminant::mean_statistics(const Take& take, int window_frames) {
+  return statistics(take, window_frames, kLearntHop).mean(0);
+}
+
 torch::Tensor Discriminant::mean_statistics(const Take& take) const {
-  return statistics(take, window_frames_, kLearntHop).mean(0);
+  return mean_statistics(take, window_frames_);
 }
 
 }  // namespace panache

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -51,6 +52,45 @@ void panache_character_set_strength(panache_character* character, int32_t style,
 
 void panache_character_set_side(panache_character* character, int32_t style, float side) {
   character->live.stylizer().set_side(style, side);
+}
+
+panache_status panache_character_set_person(panache_character* character, uint32_t seed,
+                                            float amount) {
+  return guarded([&] {
+    Stylizer& stylizer = character->live.stylizer();
+    if (Result<void> good = check_has_persons(stylizer.model()); !good) {
+      return fail(PANACHE_BAD_ARGUMENT, good.error());
+    }
+    if (!(amount >= 0 && amount <= kMaxVariety)) {
+      return fail(PANACHE_BAD_ARGUMENT,
+                  {"a person's amount is " + std::to_string(amount) + "; expected 0 to 2"});
+    }
+    stylizer.set_person(person_of_seed(stylizer.model(), seed, amount));
+    return PANACHE_OK;
+  });
+}
+
+panache_status panache_character_set_person_numbers(panache_character* character,
+                                                    const float* numbers, int32_t count) {
+  return guarded([&] {
+    Stylizer& stylizer = character->live.stylizer();
+    const Result<PersonNumbers> person = read_person(stylizer.model(), numbers, count);
+    if (!person) return fail(PANACHE_BAD_ARGUMENT, person.error());
+    stylizer.set_person(*person);
+    return PANACHE_OK;
+  });
+}
+
+panache_status panache_character_get_person_numbers(const panache_character* character,
+                                                    float* numbers, int32_t count) {
+  return guarded([&] {
+    const Stylizer& stylizer = character->live.stylizer();
+    if (Result<void> good = check_person_count(stylizer.model(), count); !good) {
+      return fail(PANACHE_BAD_ARGUMENT, good.error());
+    }
+    std::copy_n(stylizer.person().begin(), count, numbers);
+    return PANACHE_OK;
+  });
 }
 
 void panache_character_set_removed(panache_character* character, int32_t style) {

@@ -50,8 +50,7 @@ Result<std::vector<StrengthTrack>> read_tracks(const panache_strength_track* fro
   return out;
 }
 
-// `styles`: how many the model has.
-Result<RestyleOptions> read_options(const panache_stylize_options* options, int32_t styles) {
+Result<RestyleOptions> read_options(const panache_stylize_options* options, const Model& model) {
   // Programs compiled with a header without loops and gestures get the old behaviour.
   panache_stylize_options initial = PANACHE_STYLIZE_OPTIONS;
   if (options) initial.loop = 0, initial.gesture_rate = 0;
@@ -71,7 +70,13 @@ Result<RestyleOptions> read_options(const panache_stylize_options* options, int3
   out.timing = given->style_timing != 0;
   out.stylizer.tempo_everywhere = given->style_timing == 2;
   out.stylizer.shape = *shape;
-  if (given->sides) out.stylizer.sides.assign(given->sides, given->sides + styles);
+  if (given->sides) out.stylizer.sides.assign(given->sides, given->sides + model.styles().size());
+  if (given->person) {
+    const auto axes = static_cast<int32_t>(model.persons() ? model.persons()->axes() : 0);
+    const Result<PersonNumbers> person = read_person(model, given->person, axes);
+    if (!person) return located("panache_stylize_options", person.error());
+    out.stylizer.person = *person;
+  }
   if (given->loop < 0 || given->loop > 2) {
     return Error{"panache_stylize_options: loop is " + std::to_string(given->loop) +
                  "; expected 0, 1 or 2"};
@@ -123,7 +128,7 @@ panache_status panache_stylize_clip(const panache_model* model, const panache_cl
                                     panache_styled_clip** out) {
   start(out);
   return guarded([&] {
-    const auto how = read_options(options, panache_model_style_count(model));
+    const auto how = read_options(options, *model->model);
     if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error());
     const auto strengths = read_tracks(tracks, track_count, panache_model_style_count(model));
     if (!strengths) return fail(PANACHE_BAD_ARGUMENT, strengths.error());

@@ -1,5 +1,6 @@
 #include "api/errors.h"
 #include "api/objects.h"
+#include "api/options.h"
 #include "style/side.h"
 
 using namespace panache;
@@ -60,6 +61,29 @@ const char* panache_model_gesture_name(const panache_model* model, int32_t style
   if (gesture < 0 || gesture >= panache_model_gesture_count(model, style)) return nullptr;
   return model->model->gestures(style)[gesture].name().c_str();
 }
+
+int32_t panache_model_person_axis_count(const panache_model* model) {
+  const PersonSpace* persons = model->model->persons();
+  return persons ? static_cast<int32_t>(persons->axes()) : 0;
+}
+
+const char* panache_model_person_axis_name(const panache_model* model, int32_t axis) {
+  if (axis < 0 || axis >= panache_model_person_axis_count(model)) return nullptr;
+  return model->model->persons()->names()[axis].c_str();
+}
+
+panache_status panache_model_draw_person(const panache_model* model, uint32_t seed, float* numbers,
+                                         int32_t count) {
+  return guarded([&] {
+    if (Result<void> good = check_person_count(*model->model, count); !good) {
+      return fail(PANACHE_BAD_ARGUMENT, good.error());
+    }
+    draw_person(seed, {numbers, static_cast<size_t>(count)});
+    return PANACHE_OK;
+  });
+}
+
+uint32_t panache_person_seed(const char* word) { return person_seed(word); }
 
 int32_t panache_model_find_style(const panache_model* model, const char* name) {
   int32_t index = -1;

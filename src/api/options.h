@@ -1,11 +1,14 @@
 #pragma once
 // Converts options of the C interface to those of the library.
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "api/sized_struct.h"
 #include "panache/panache.h"
 #include "rig/rig.h"
+#include "style/model.h"
 #include "style/shape.h"
 
 namespace panache::api {
@@ -28,6 +31,28 @@ inline Result<Shape> read_shape(const panache_shape* given) {
   out.regions[size_t(Region::right_arm)] = read->right_arm;
   out.foot_lock = read->foot_lock;
   out.hand_contacts = read->hand_contacts;
+  out.energy = read->energy;
+  return out;
+}
+
+// Fails if a model has another number of axes of persons, or none.
+inline Result<void> check_person_count(const Model& model, int32_t count) {
+  if (Result<void> good = check_has_persons(model); !good) return good.error();
+  if (static_cast<size_t>(count) == model.persons()->axes()) return {};
+  return Error{std::to_string(count) + " numbers of a person; expected " +
+               std::to_string(model.persons()->axes()) + ", one for each axis of the model"};
+}
+
+// The numbers of a person; fails if they are not finite, or as check_person_count().
+inline Result<PersonNumbers> read_person(const Model& model, const float* numbers, int32_t count) {
+  if (Result<void> good = check_person_count(model, count); !good) return good.error();
+  PersonNumbers out{};
+  for (int32_t a = 0; a < count; ++a) {
+    if (!std::isfinite(numbers[a])) {
+      return Error{"number " + std::to_string(a) + " of a person is not finite"};
+    }
+    out[a] = std::clamp(numbers[a], -kMaxPerson, kMaxPerson);
+  }
   return out;
 }
 

@@ -256,7 +256,7 @@ void NeutralBank::find(const Take& take, float frame, float tempo, std::span<Nea
   }
 }
 
-NeutralTwin NeutralBank::twin(const Take& styled) const {
+NeutralTwin NeutralBank::twin(const Take& styled, bool is_person) const {
   NeutralTwin out;
   // The tempo at which most people would do it.
   double best = 0, unlike = 0;
@@ -323,7 +323,7 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
   double style = 0, all = 0;
   for (int j = 0; j < kHumanJoints; ++j) {
     const Vec3 apart = is[j] - was[j];
-    const float square = dot(apart, apart), between = kPostureShare * variance[j].x;
+    const float square = dot(apart, apart), between = is_person ? 0 : kPostureShare * variance[j].x;
     const float kept = between / std::max(square, std::max(between, 1e-9f));
     for (HumanPositions& body : out.take.body) body[j] = body[j] + apart * kept;
     style += (1 - kept) * square;

@@ -56,7 +56,8 @@ class NeutralBank {
   static Result<std::shared_ptr<const NeutralBank>> parse(std::string_view bytes,
                                                           const std::string& name);
 
-  NeutralTwin twin(const Take& styled) const;
+  // `is_person`: the take is neutral too, and all that differs is the person's.
+  NeutralTwin twin(const Take& styled, bool is_person = false) const;
 
   // out.size() = kDirections
   void project(std::span<const float> moment, std::span<float> out) const;

@@ -15,6 +15,7 @@
 #include "pose/features.h"
 #include "recipes/recipe.h"
 #include "style/gesture.h"
+#include "style/person.h"
 #include "style/stance.h"
 
 namespace panache {
@@ -73,6 +74,9 @@ class Model {
   size_t parameter_count() const { return parameter_count_; }
   // The predictor of missing input; null in models without one.
   const PredictorNetwork* predictor() const { return predictor_.get(); }
+
+  // How people differ; null in models without persons.
+  const PersonSpace* persons() const { return persons_ ? &*persons_ : nullptr; }
 
   // Whether styles can be learnt: the model knows how its activations vary.
   bool can_learn() const { return recipe_->learns_styles && !activation_mean_.empty(); }
@@ -175,6 +179,7 @@ class Model {
   std::vector<Stance> stances_;                 // [styles], or empty if unknown.
   std::vector<std::vector<Gesture>> gestures_;  // [styles]
   std::vector<float> gesture_rates_;            // [styles]
+  std::optional<PersonSpace> persons_;
   std::shared_ptr<const PredictorNetwork> predictor_;
   size_t parameter_count_ = 0;
   size_t scratch_size_ = 0;  // Scratch size of one character's forward pass, see kMaxScratch.

@@ -111,12 +111,17 @@ Result<void> Model::measure_scratch(const std::string& name) {
   for (const Heads& heads : heads_) {
     for (const PackedLayer& layer : heads.layers) answers = std::max(answers, layer.width());
   }
-  const bool reads_all = can_learn() || !reductions_.empty();
+  const bool reads_all = can_learn() || !reductions_.empty() || persons_;
   const size_t activations = padded(reads_all ? activation_count() : trunks_.outputs(kPose));
   size_t reduced = 0;
   for (const PackedLayer& layer : reductions_) reduced = std::max(reduced, layer.width());
-  scratch_size_ = padded(static_cast<size_t>(trunks_.inputs())) + trunks_.scratch_size() +
-                  3 * activations + reduced + answers;
+  size_t heads = 3 * activations + reduced + answers;
+  if (persons_) {
+    const size_t products = padded(persons_->head().inputs()), width = persons_->reduction().width();
+    heads = std::max(heads, width + std::max(activations, products + persons_->head().width()));
+  }
+  scratch_size_ =
+      padded(static_cast<size_t>(trunks_.inputs())) + trunks_.scratch_size() + heads;
   if (scratch_size_ <= kMaxScratch) return {};
   return Error{name + ": a step works in " + std::to_string(scratch_size_) +
                " numbers; expected trunks of fewer layers, so that it takes at most " +
@@ -164,6 +169,16 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
   }
   if (auto read = read_recognition(file, name); !read) return read.error();
   if (auto read = read_gate(file, name); !read) return read.error();
+  if (PersonSpace::is_in(file)) {
+    if (!recipe_->style_heads) {
+      return Error{name + ": has tensors 'person.*'; a model of recipe " + recipe_->name +
+                   " cannot have persons"};
+    }
+    Result<PersonSpace> persons =
+        PersonSpace::read(file, static_cast<int>(activation_count()), output_scale_, name);
+    if (!persons) return persons.error();
+    persons_ = *std::move(persons);
+  }
   if (auto read = read_gestures(file, name); !read) return read.error();
   measure_stances();
   return measure_scratch(name);

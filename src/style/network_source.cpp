@@ -7,17 +7,33 @@ namespace panache {
 namespace {
 
 constexpr float kGateSeconds = 0.15f;  // Time constant of the gate.
+constexpr float kNear = 1e-4f;         // Numbers of persons that differ by less are equal.
 
 }  // namespace
 
 NetworkSource::NetworkSource(std::shared_ptr<const Model> model, const StylizerOptions& options)
-    : options_{options.gesture_rate, options.gesture_seed},
+    : options_{options.gesture_rate, options.gesture_seed, options.ease_seconds},
       sides_(options.sides),
       shape_(options.shape),
+      person_(options.person),
       strengths_(model->styles().size(), options.ease_seconds),
       networks_(std::move(model)),
       gestures_(options.gesture_seed) {
   sides_.resize(this->model().styles().size(), 1.0f);
+}
+
+void NetworkSource::set_person(std::span<const float> numbers) noexcept {
+  if (!model().persons()) return;
+  for (size_t a = 0; a < std::min(numbers.size(), model().persons()->axes()); ++a) {
+    if (std::isfinite(numbers[a])) person_[a] = std::clamp(numbers[a], -kMaxPerson, kMaxPerson);
+  }
+}
+
+// As for styles: from a quarter of a usual number on, a person is fully active.
+float NetworkSource::amount() const noexcept {
+  float largest = 0;
+  for (const float number : eased_person_) largest = std::max(largest, std::abs(number));
+  return std::max(strengths_.amount(), std::min(1.0f, 4 * largest));
 }
 
 void NetworkSource::set_side(int style, float side) noexcept {
@@ -37,6 +53,13 @@ void NetworkSource::ease_strengths(const Seen& seen) noexcept {
   if (seen.time.first) gestures_.stop();
   strengths_.step(wanted_, sides_, shape_, seen.time);
   networks_.set_strengths(strengths_.now(), strengths_.sides());
+  if (model().persons()) {
+    const float gain = seen.time.gain(options_.ease_seconds);
+    for (size_t a = 0; a < person_.size(); ++a) {
+      approach(eased_person_[a], person_[a], gain, kNear);
+    }
+    networks_.set_person(eased_person_);
+  }
   tell(seen.clock, Stage::strengths);
 }
 
@@ -59,7 +82,7 @@ AskedChange NetworkSource::finish(const Seen& seen) noexcept {
   }
   asked.gesture = gestures_.now();
   asked.shape = &strengths_.shape();
-  asked.amount = strengths_.amount();
+  asked.amount = amount();
   return asked;
 }
 

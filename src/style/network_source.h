@@ -18,6 +18,8 @@ class NetworkSource final : public ChangeSource {
   void set_strengths(std::span<const float> strengths) noexcept { wanted_ = strengths; }
   void set_side(int style, float side) noexcept;
   void set_shape(const Shape& shape) noexcept { shape_ = shape; }
+  void set_person(std::span<const float> numbers) noexcept;
+  const PersonNumbers& person() const noexcept { return person_; }
   bool trigger(int style, int gesture) noexcept;
   void set_gesture_rate(float rate) noexcept { options_.gesture_rate = rate; }
   void reset_gestures() noexcept { gestures_.reset(options_.gesture_seed); }
@@ -31,7 +33,7 @@ class NetworkSource final : public ChangeSource {
   AskedChange finish(const Seen& seen) noexcept;
 
   // At the last instant; see Stylizer.
-  float amount() const noexcept { return strengths_.amount(); }
+  float amount() const noexcept;
   float gate() const noexcept { return networks_.gate(); }
   const GesturePose* gesture() const noexcept { return gestures_.now(); }
   const Model& model() const noexcept { return networks_.model(); }
@@ -43,6 +45,7 @@ class NetworkSource final : public ChangeSource {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     EasedStrengths::visit_state(self.strengths_, visit);
+    visit(self.eased_person_);
     StyleNetworks::visit_state(self.networks_, visit);
     GesturePlayer::visit_state(self.gestures_, visit);
   }
@@ -53,10 +56,12 @@ class NetworkSource final : public ChangeSource {
   struct {
     float gesture_rate;
     uint32_t gesture_seed;
+    float ease_seconds;
   } options_;
   std::span<const float> wanted_;
   std::vector<float> sides_;  // As requested. [styles]
   Shape shape_;               // As requested.
+  PersonNumbers person_, eased_person_{};
   EasedStrengths strengths_;
   StyleNetworks networks_;
   GesturePlayer gestures_;

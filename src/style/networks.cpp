@@ -220,6 +220,7 @@ void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numb
   add_heads(passes, in_force, Model::kContact, hidden[Model::kContact], arena,
             [](HalfMemory& half) { return std::span(half.contact); });
   add_learnt(passes, scratch, arena);
+  add_person(passes, scratch, arena);
   for (const Pass& pass : passes) {
     std::vector<float>& pose = memory(pass).pose;
     const float share = pass.networks->share(pass.half);

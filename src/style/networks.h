@@ -27,6 +27,9 @@ class StyleNetworks {
   // forward pass evaluates only the heads of styles with a nonzero strength. `sides`: likewise, -1
   // to 1; if empty, all are 1, as they always are in models without a head per style.
   void set_strengths(std::span<const float> strengths, std::span<const float> sides = {}) noexcept;
+  // The numbers of a person from now on, PersonSpace::axes() or more; all 0 is no person, as at
+  // first. Ignored if the model has no persons.
+  void set_person(std::span<const float> numbers) noexcept;
 
   // Evaluates a window as PoseHistory::window() gives it. The results stay until the next call. The
   // gate moves by the share `gate_share` from its last value towards the window's.
@@ -67,7 +70,7 @@ class StyleNetworks {
   // Calls visit(member) for everything that tells one character from another of this model.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.strengths_), visit(self.sides_);
+    visit(self.strengths_), visit(self.sides_), visit(self.person_), visit(self.is_person_);
     for (auto& half : self.halves_) {
       visit(half.runs), visit(half.pose), visit(half.timing), visit(half.contact);
       visit(half.gate), visit(half.learnt_gates);
@@ -122,6 +125,9 @@ class StyleNetworks {
   // Adds the outputs of the active learnt styles, from the trunks' activations in `scratch`.
   static void add_learnt(std::span<const Pass> passes, std::span<const float> scratch,
                          ScratchArena& arena);
+  // Adds the outputs of the characters' persons, likewise.
+  static void add_person(std::span<const Pass> passes, std::span<const float> scratch,
+                         ScratchArena& arena) noexcept;
   // How far a window is from a style's examples; at 1 its gate begins to close. Writes the
   // standardised difference of the activations from their mean to `apart`.
   float leverage(const Model::Learnt& learnt, std::span<const float> activations,
@@ -129,6 +135,8 @@ class StyleNetworks {
 
   std::shared_ptr<const Model> model_;
   std::vector<float> strengths_, sides_;  // [styles]
+  PersonNumbers person_{};
+  bool is_person_ = false;  // Whether any of them is not 0.
   std::array<HalfMemory, 2> halves_;
 };
 

@@ -42,7 +42,7 @@ size_t StyleNetworks::passes(std::span<const float> window, float gate_share,
   for (const Half half : {Half::captured, Half::mirrored}) {
     HalfMemory& memory = of(half);
     const bool wakes = !memory.runs && !starts;
-    memory.runs = share(half) > 0;
+    memory.runs = share(half) > 0 || (is_person_ && half == Half::captured);
     if (memory.runs) out[count++] = {this, window, wakes ? 1.0f : gate_share, half};
   }
   if (!of(Half::captured).runs) {
@@ -90,6 +90,7 @@ float StyleNetworks::gate() const noexcept {
 
 Stance StyleNetworks::stance() const noexcept {
   Stance sum;
+  if (is_person_) sum = model_->persons()->stance(person_);
   for (size_t s = 0; s < model_->stances_.size(); ++s) {
     if (strengths_[s] == 0) continue;
     const float strength = posture_strength(strengths_[s]);

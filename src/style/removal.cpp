@@ -56,7 +56,9 @@ Result<Restyled> restyle_without(const Clip& clip, const Rig& rig, const Removal
                                  const std::vector<StrengthTrack>& tracks,
                                  const RestyleOptions& options,
                                  const std::function<void(double)>& progress) {
-  const bool again = asks_for_a_style(tracks);
+  const StylizerOptions& how = options.stylizer;
+  const bool again =
+      asks_for_a_style(tracks) || how.person != PersonNumbers{} || how.shape.energy != 1;
   const auto part = [&](double begin) {
     return [&progress, begin, again](double done) {
       if (progress) progress(again ? begin + done / 2 : done);
@@ -66,6 +68,7 @@ Result<Restyled> restyle_without(const Clip& clip, const Rig& rig, const Removal
   // The style that is taken off may cause what the hands touch.
   plain.stylizer.shape = {.hand_contacts = 0};
   plain.stylizer.sides = {};
+  plain.stylizer.person = {};
   Result<Restyled> neutral =
       restyle(clip, rig, removal.remover, {{removal.style, {{0, 1}}}}, plain, part(0));
   if (!neutral || !again) return neutral;

@@ -11,6 +11,7 @@ Result<RemovalPass> RemovalPass::create(std::shared_ptr<const Model> remover, Ri
   if (Result<int> any = find_removal(*remover, ""); !any) return any.error();
   options.shape = {.hand_contacts = 0};
   options.sides = {};
+  options.person = {};
   Result<Stylizer> stylizer = Stylizer::create(std::move(remover), std::move(rig), options);
   if (!stylizer) return stylizer.error();
   return RemovalPass(*std::move(stylizer));

@@ -33,6 +33,9 @@ struct Shape {
   std::array<float, kRegions> regions = {1, 1, 1, 1};
   float foot_lock = 1;      // How firmly planted feet are held, 0 to 1.
   float hand_contacts = 1;  // How firmly hands keep what they touch, 0 to 1.
+  // Amount of the input's own movement of torso, head and arms around its mean over the last
+  // seconds; without a style, too.
+  float energy = 1;
 
   friend bool operator==(const Shape&, const Shape&) = default;
 };

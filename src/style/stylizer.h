@@ -34,6 +34,13 @@ class Stylizer {
   // finite and, in a model without a head per style, all sides are ignored.
   void set_side(int style, float side) noexcept { source_.set_side(style, side); }
 
+  // The person from the next step on, in addition to the styles: a number for each axis of the
+  // model's persons, see PersonNumbers; clamped to -kMaxPerson to kMaxPerson, and eased in. reset()
+  // keeps it. Numbers that are not finite and, in a model without persons, all are ignored.
+  void set_person(std::span<const float> numbers) noexcept { source_.set_person(numbers); }
+  // As set.
+  const PersonNumbers& person() const noexcept { return source_.person(); }
+
   // See StylizerOptions::gesture_rate; from the next step on.
   void set_gesture_rate(float rate) noexcept { source_.set_gesture_rate(rate); }
 

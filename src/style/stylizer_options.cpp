@@ -46,6 +46,9 @@ Result<void> check(const StylizerOptions& options, const Model& model) {
     return Error{"gesture rate of " + std::to_string(options.gesture_rate) +
                  "; expected 0 to 10 times that of the takes"};
   }
+  if (options.person != PersonNumbers{}) {
+    if (Result<void> good = check_has_persons(model); !good) return good.error();
+  }
   return check_sides(options.sides, model);
 }
 

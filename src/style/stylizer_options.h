@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "pose/observer.h"
+#include "style/person.h"
 #include "style/shape.h"
 
 namespace panache {
@@ -22,6 +23,8 @@ struct StylizerOptions {
   Shape shape;  // Initially, see Stylizer::set_shape().
   // Initially, see Stylizer::set_side(): one per style, -1 to 1; empty: all 1.
   std::vector<float> sides;
+  // Initially, see Stylizer::set_person().
+  PersonNumbers person = {};
   // Faster hips over the ground, m/s, count as a cut, and the past is forgotten. Bodies on vehicles
   // need more; infinity: no cuts.
   float max_speed = Observer::kMaxGroundSpeed;

@@ -141,6 +141,14 @@ class Character:
         lib.character_set_side(self._pointer, self.model.find_style(style),
                                self.model.find_side(style, side))
 
+    def set_person(self, who: Union[int, str, np.ndarray, None], amount: float = 1) -> None:
+        """Makes the character another person, in addition to its styles: see `Model.person()`;
+        None: nobody. The change is eased."""
+        if who is None:
+            who, amount = np.zeros(len(self.model.person_axes), np.float32), 1
+        numbers = np.ascontiguousarray(self.model.person(who, amount))
+        check(lib.character_set_person_numbers(self._pointer, numbers.ctypes.data, len(numbers)))
+
     def set_removed(self, style: Optional[str]) -> None:
         """Sets the style that the remover removes from the input; None: no style."""
         if self.remover is None:

@@ -194,7 +194,8 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
             shape: Optional[Mapping[str, float]] = None, max_speed: float = 15,
             loop: str = 'auto', remove: Optional[str] = None,
             remover: Optional[Model] = None, gesture_rate: float = 1, gesture_seed: int = 0,
-            sides: Optional[Mapping[str, Union[float, str]]] = None) -> StyledClip:
+            sides: Optional[Mapping[str, Union[float, str]]] = None,
+            person: Union[int, str, np.ndarray, None] = None, variety: float = 1) -> StyledClip:
     """A clip in a style, or a mix of styles.
 
     styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of
@@ -209,6 +210,7 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
     remove: the style of the clip, which is removed first; 'any' for an unknown one.
     remover: the model that removes it; None: the shipped one.
     sides:  {name: side} of styles that are not put on as captured, see Character.set_side().
+    person, variety: another person, in addition to the styles, see Model.person().
     gesture_rate, gesture_seed: see Character. A result that loops has no gestures at random.
 
     If all strengths are 0, the result is bit-identical to the clip (models of recipe panache).
@@ -237,6 +239,9 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
         for name, side in mapping(sides, 'sides').items():
             numbers[model.find_style(name)] = model.find_side(name, side)
         options.sides = numbers.ctypes.data
+    if person is not None:
+        who = np.ascontiguousarray(model.person(person, variety))
+        options.person = who.ctypes.data
     if remove is not None:
         remover = remover or Model(_REMOVER)
         options.removed = remover.find_style(remove)

@@ -9,8 +9,8 @@ from typing import Dict, List, Optional, Union
 import numpy as np
 
 from ._files import write
-from ._library import (HERE, Handle, PanacheError, check, last_error, lib, number, take_bytes,
-                       utf8)
+from ._library import (HERE, Handle, PanacheError, check, floats, last_error, lib, number,
+                       take_bytes, utf8, whole)
 
 _MODELS = HERE / 'models'
 NEUTRAL_BANK = _MODELS / 'neutral.safetensors'  # For learn() from a single clip.
@@ -66,6 +66,11 @@ class Model:
         """The gestures of each style, 'glances left, 1.2 s', for `Character.trigger()`; most
         styles have none."""
 
+        self.person_axes: List[str] = [
+            lib.model_person_axis_name(self._handle.pointer, i).decode()
+            for i in range(lib.model_person_axis_count(self._handle.pointer))]
+        """What each number of a person changes most; empty if the model has no persons."""
+
     def __reduce__(self):
         return Model, (self.content,)
 
@@ -92,6 +97,23 @@ class Model:
         check(lib.model_find_side(self._handle.pointer, self.find_style(style), utf8(side, 'side'),
                                   ctypes.byref(found)))
         return found.value
+
+    def person(self, who: Union[int, str, np.ndarray], amount: float = 1) -> np.ndarray:
+        """The numbers of a person: of a seed (a number or a word), or given, [person_axes];
+        `amount` times as far from the mean person, 0 to 2. Real people are distributed like
+        standard normal numbers."""
+        axes = len(self.person_axes)
+        if isinstance(who, (str, int, np.integer)):
+            seed = (lib.person_seed(utf8(who, 'person')) if isinstance(who, str)
+                    else whole(who, 'person'))
+            if not 0 <= seed < 2 ** 32:
+                raise PanacheError(f'person: expected a seed of 0 to {2 ** 32 - 1}, found {seed}')
+            numbers = np.zeros(max(axes, 1), np.float32)
+            check(lib.model_draw_person(self._handle.pointer, seed, numbers.ctypes.data, axes))
+            numbers = numbers[:axes]
+        else:
+            numbers = floats(who, (axes,), 'person')
+        return numbers * np.float32(number(amount, 'amount'))
 
     def _header(self) -> dict:
         size = int.from_bytes(self.content[:8], 'little')

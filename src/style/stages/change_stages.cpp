@@ -55,6 +55,10 @@ void carry_out(Gestures&, StageWork& work) noexcept {
   work.lift = gesture_lift(*work.asked.gesture, work.shape);
 }
 
+void carry_out(Energy& energy, StageWork& work) noexcept {
+  energy.step(work.body, work.shape.energy, work.above_floor, work.time, work.change);
+}
+
 void carry_out(Anatomy& anatomy, StageWork& work) noexcept {
   anatomy.step(work.body, work.observer.rig(), work.time, work.change);
 }

@@ -9,6 +9,7 @@
 #include "style/stage_clock.h"
 #include "style/stages/anatomy.h"
 #include "style/stages/arms_clear.h"
+#include "style/stages/energy.h"
 #include "style/stages/fall.h"
 #include "style/stages/filter.h"
 #include "style/stages/floor.h"
@@ -40,6 +41,7 @@ using ChangeRow = StageRow<Named<StepWatch, "watch the steps">,            //
                            Named<RootMotion, "root motion">,               //
                            Named<Shaping, "shape">,                        //
                            Named<Gestures, "add a gesture">,               //
+                           Named<Energy, "calm or enliven the input">,     //
                            Named<Anatomy, "keep joints in range">,         //
                            Named<Balance, "keep the balance">,             //
                            Named<LegsApart, "keep the legs apart">,        //

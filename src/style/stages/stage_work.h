@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "pose/changed_joints.h"
 #include "pose/contacts.h"
@@ -64,10 +65,13 @@ struct StageWork {
   ArmRotations free_arms = {};         // Before contacts and the body correct them.
   HandHolds holds = {};                // Contacts that the hands keep.
 
-  // How active any style is for each arm. An arm without style keeps its input.
+  // How active any style, or energy, is for each arm. Otherwise an arm keeps its input.
   std::array<float, 2> arms() const noexcept {
+    const float moved = std::min(1.0f, 4 * std::abs(asked.shape->energy - 1));
     const auto arm = [&](Region region) {
-      return asked.amount * std::min(1.0f, asked.shape->regions[static_cast<size_t>(region)]);
+      const float styled =
+          asked.amount * std::min(1.0f, asked.shape->regions[static_cast<size_t>(region)]);
+      return std::max(styled, moved);
     };
     return {arm(Region::left_arm), arm(Region::right_arm)};
   }

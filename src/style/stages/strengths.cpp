@@ -35,6 +35,7 @@ void EasedStrengths::step(std::span<const float> strengths, std::span<const floa
   ease(shape_.timing, shape.timing, Shape::kMax);
   ease(shape_.foot_lock, shape.foot_lock, 1);
   ease(shape_.hand_contacts, shape.hand_contacts, 1);
+  ease(shape_.energy, shape.energy, Shape::kMax);
   for (size_t r = 0; r < kRegions; ++r) {
     ease(shape_.regions[r], shape.regions[r], Shape::kMax);
   }

@@ -1,0 +1,67 @@
+#include "person_options.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "clip/text_cursor.h"
+#include "style/person.h"
+#include "usage_error.h"
+
+namespace panache::cli {
+namespace {
+
+constexpr const char* kRandom = "random";
+
+// The seed that a number or a word names. Digits that are no 32-bit number count as a word.
+uint32_t seed_of(const std::string& text) {
+  uint32_t seed = 0;
+  const bool digits = std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c); });
+  if (digits && CLI::detail::lexical_cast(text, seed)) return seed;
+  return person_seed(text);
+}
+
+}  // namespace
+
+void add_person_options(CLI::App& verb, PersonFlags& flags) {
+  add_option(verb, "--person SEED", flags.person,
+             "Move as another person, in addition to the styles: a\nnumber or a word, each is another "
+             "one. random: another\none for each file");
+  add_option(verb, "--seed NUMBER", flags.seed,
+             "Other random persons; equal seeds give equal persons.\nDefault: 0");
+  add_option(verb, "--variety AMOUNT", flags.variety,
+             "How far the person is from the mean of people: 0 (not\nat all) to 2; default: 1, as "
+             "real people differ")
+      ->check(in_range(0, static_cast<double>(kMaxVariety)));
+}
+
+uint32_t PersonWish::seed_for(const std::string& file) const {
+  if (seed) return *seed;
+  const std::string path = std::filesystem::path(file).lexically_normal().generic_string();
+  return person_seed(std::to_string(random_seed) + ":" + path);
+}
+
+std::optional<PersonWish> read_person_options(const PersonFlags& flags, const Model& model) {
+  if (!flags.given()) {
+    if (flags.seed) throw Failure{{"--seed: is for random persons; add --person random"}, kBadUsage};
+    if (flags.variety) throw Failure{{"--variety: nobody is asked for; add --person"}, kBadUsage};
+    return std::nullopt;
+  }
+  const bool random = flags.person == kRandom;
+  if (flags.seed && !random) {
+    throw Failure{{"--seed: --person " + panache::quoted(flags.person) +
+                   " is one person; expected --person random"},
+                  kBadUsage};
+  }
+  if (Result<void> good = check_has_persons(model); !good) {
+    throw Failure{{"--person: " + good.error().message}, kBadInput};
+  }
+  PersonWish wish;
+  wish.given = flags.person;
+  wish.variety = flags.variety.value_or(1);
+  wish.random_seed = flags.seed.value_or(0);
+  if (!random) wish.seed = seed_of(flags.person);
+  return wish;
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,124 @@
+// panache-lab persons: measures the persons of a model beside real people.
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "eval/persons.h"
+#include "lab_verbs.h"
+#include "manifests.h"
+#include "messages.h"
+
+namespace panache::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> manifests, walks, others;
+  std::string model;
+  int seeds = 20, other_seeds = 5;
+  float variety = 1;
+};
+
+std::vector<TestInput> inputs_of(const std::vector<std::string>& files) {
+  std::vector<ManifestRow> rows;
+  for (const std::string& file : files) rows.emplace_back().path = file;
+  return need(load_inputs(rows));
+}
+
+double quantile(std::vector<double> values, double q) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? kNotMeasured
+                        : values[static_cast<size_t>(q * double(values.size() - 1) + 0.5)];
+}
+
+std::string describe(const PersonSpread& spread) {
+  return fixed(spread.median_cm, 2) + " cm apart, 90 % " + fixed(spread.p90_cm, 2);
+}
+
+void print_others(const std::string& what, const std::vector<OodRow>& rows) {
+  std::vector<double> jerk, beyond, sliding, distance, contacts;
+  int jumps = 0;
+  for (const OodRow& row : rows) {
+    if (row.jerk_ratio == row.jerk_ratio) jerk.push_back(row.jerk_ratio);
+    beyond.push_back(row.beyond_limits);
+    sliding.push_back(row.skating_ratio - row.input_skating_ratio);
+    distance.push_back(row.distance_cm);
+    jumps += row.jumps;
+  }
+  double limits = 0, more = 0, cm = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    limits += beyond[i] / double(rows.size());
+    more += sliding[i] / double(rows.size());
+    cm += distance[i] / double(rows.size());
+  }
+  print(what + ": " + plural(rows.size(), "clip") + ", jerk / input " + fixed(quantile(jerk, 0.5), 2) +
+        ", 90 % " + fixed(quantile(jerk, 0.9), 2) + "; beyond limits " + fixed(100 * limits, 2) +
+        " % of frames; jumps " + std::to_string(jumps) + "; sliding " + fixed(100 * more, 1) +
+        " % more; " + fixed(cm, 1) + " cm from the input\n");
+}
+
+int measure(const Options& options) {
+  Manifests data = need(read_manifests({options.manifests, "", {}}));
+  std::erase_if(data.rows, [](const ManifestRow& row) { return !row.neutral; });
+  const auto model = need(Model::load(options.model));
+  need(check_has_persons(*model));
+  const std::vector<Take> takes = need(load_takes(data.rows, PoseLayout::positions));
+  const auto persons = need(PersonsMeasure::create(takes, inputs_of(options.walks)));
+  const RealPeople& real = persons.real();
+  print("real: " + std::to_string(real.people) + " people, " + describe(real.spread) +
+        ", takes of one " + fixed(real.own_cm, 2) + "; told " + fixed(real.told, 3) + " of " +
+        std::to_string(real.told_of) + "; six numbers carry " + fixed(real.kept, 2) + "\n");
+  const SeedPersons seeds = need(persons.measure(model, options.seeds, options.variety));
+  print("seeds: " + std::to_string(seeds.seeds) + " on " + plural(seeds.walks, "walk") + ", " +
+        describe(seeds.spread) + "; told " + fixed(seeds.told, 3) + "; outside " +
+        fixed(seeds.outside, 3) + "\n");
+  if (options.others.empty()) return kDone;
+  std::vector<std::string> files;
+  for (const std::string& path : options.others) {
+    const std::vector<std::string> found = need(list_ood(path));
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  const std::vector<TestInput> inputs = inputs_of(files);
+  print_others("persons on other motion",
+               need(measure_persons_on(inputs, model, options.other_seeds, options.variety)));
+  // What the styles do there.
+  std::vector<OodRow> styled;
+  for (const TestInput& input : inputs) {
+    for (size_t style = 0; style < model->styles().size(); style += 6) {
+      const Take take = need(play_person(input, model, -1, 0, static_cast<int>(style)));
+      styled.push_back(compare_ood(input.take, take));
+    }
+  }
+  print_others("styles on other motion", styled);
+  return kDone;
+}
+
+}  // namespace
+
+void add_persons(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("persons", "Measure the persons of a model beside real people");
+  auto options = std::make_shared<Options>();
+  verb->add_option("MANIFEST", options->manifests,
+                   "Manifests with neutral walks of many people on one skeleton")
+      ->required();
+  add_option(*verb, "--model FILE", options->model, "Model with persons")->required();
+  add_option(*verb, "--walk FILE", options->walks,
+             "Neutral walk of somebody outside the training; two or more")
+      ->required()
+      ->allow_extra_args(false);
+  add_option(*verb, "--other PATH", options->others,
+             "Other motion: a file, a folder or a manifest")
+      ->allow_extra_args(false);
+  add_option(*verb, "--seeds NUMBER", options->seeds, "Persons on the walks; default: 20")
+      ->check(CLI::Range(2, 1000));
+  add_option(*verb, "--variety AMOUNT", options->variety, "See panache stylize; default: 1")
+      ->check(CLI::Range(0.0f, kMaxVariety));
+  verb->footer(
+      "Example:\n"
+      "  panache-lab persons takes.csv --model model.safetensors --walk a.bvh --walk b.bvh");
+  verb->callback([options, &exit_code] { exit_code = measure(*options); });
+}
+
+}  // namespace panache::cli

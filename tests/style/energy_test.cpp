@@ -1,0 +1,80 @@
+// The energy of the input: from calm to lively, without touching hips, legs and course.
+
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "make_clip.h"
+#include "make_model.h"
+#include "style/stylizer.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+class EnergyTest : public testing::Test {
+ protected:
+  // Eight seconds with this energy from the first frame on, without a style.
+  Clip run(float energy) const {
+    Stylizer stylizer = *Stylizer::create(
+        *Model::parse(format_safetensors(test::make_model({"old"})), "model"), rig_);
+    Shape shape;
+    shape.energy = energy;
+    stylizer.set_shape(shape);
+    Clip out = clip_;
+    for (int f = 0; f < clip_.frames; ++f) {
+      stylizer.step(clip_.pose(f), std::vector<float>{0}, clip_.frame_time, out.pose(f));
+    }
+    return out;
+  }
+  // How far a hand swings ahead of and behind the hips over the last four seconds, metres.
+  double swing(const Clip& clip, HumanJoint hand) const {
+    PosedRig rig(rig_);
+    BodyPose body;
+    float least = 9, most = -9;
+    for (int f = clip.frames / 2; f < clip.frames; ++f) {
+      rig.read(clip.pose(f), body);
+      const Vec3 way = body.joints[index(hand)] - body.joints[index(hips)];
+      least = std::min(least, way.z), most = std::max(most, way.z);
+    }
+    return double{most - least};
+  }
+
+  Clip clip_ = test::walking_clip(240);
+  Rig rig_ = *Rig::create(clip_);
+};
+
+TEST_F(EnergyTest, of_1_is_the_input_bit_for_bit) {
+  const Clip out = run(1);
+  EXPECT_EQ(std::memcmp(out.rotations.data(), clip_.rotations.data(),
+                        out.rotations.size() * sizeof(Quat)),
+            0);
+}
+
+TEST_F(EnergyTest, scales_the_swing_of_the_arms) {
+  const double was = swing(clip_, left_hand);
+  // A mean over 1.5 s still moves by a tenth of a swing of 1 s: 1 / (2 pi 1.5).
+  EXPECT_LT(swing(run(0), left_hand), 0.2 * was);
+  EXPECT_NEAR(swing(run(0.5f), left_hand), 0.5 * was, 0.1 * was);
+  EXPECT_GT(swing(run(2), right_hand), 1.3 * was);
+}
+
+TEST_F(EnergyTest, leaves_hips_legs_and_course_alone) {
+  for (const float energy : {0.0f, 2.0f}) {
+    const Clip out = run(energy);
+    for (int f = 0; f < clip_.frames; ++f) {
+      const ConstPose a = clip_.pose(f), b = out.pose(f);
+      ASSERT_EQ(a.translations[0], b.translations[0]) << f;
+      for (const HumanJoint joint : {hips, left_upper_leg, left_lower_leg, left_foot, left_toes,
+                                     right_upper_leg, right_lower_leg, right_foot, right_toes}) {
+        ASSERT_EQ(a.rotations[index(joint)], b.rotations[index(joint)])
+            << f << " " << human_joint_name(index(joint));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace panache
