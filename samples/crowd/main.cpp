@@ -1,16 +1,19 @@
-// A thousand characters share a model and a rig; each has a style of its own.
+// A thousand characters share a model and a rig; each is another person and has a style of its own.
 
 #include <chrono>
 #include <cstdio>
+#include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 #include "../common/stick_figure.h"
 
 int main(int argc, char** argv) {
   const int count = argc > 2 ? std::atoi(argv[2]) : 1000;
+  const bool with_persons = argc < 4 || std::string(argv[3]) != "clones";
   if (argc < 2 || count < 1) {
-    std::fprintf(stderr, "usage: crowd MODEL [CHARACTERS]\n");
+    std::fprintf(stderr, "usage: crowd MODEL [CHARACTERS [clones]]\n");
     return 2;
   }
   panache_model* model = stick_load_model(argv[1]);
@@ -30,6 +33,11 @@ int main(int argc, char** argv) {
     }
     const auto style = static_cast<int32_t>(i) % panache_model_style_count(model);
     panache_character_set_strength(characters[i], style, 1);
+    const auto seed = static_cast<uint32_t>(i);
+    if (panache_character_set_person(characters[i], seed, with_persons ? 1.0f : 0.0f)) {
+      std::fprintf(stderr, "person: %s\n", panache_last_error());
+      return 1;
+    }
     in.push_back(stick_input(&poses[i]));
     out.push_back(stick_output(&poses[i]));  // Styled in place.
   }

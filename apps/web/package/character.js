@@ -1,7 +1,7 @@
 // Styles the caller's own poses: panache.h for JavaScript. See index.d.ts.
 import {
   PanacheError, checkFinite, checkInteger, checkJoints, checkKeys, checkPose, checkTriggered,
-  handleFor, inUse, sideNumber, timingNumber, unexpected,
+  handleFor, inUse, personNumbers, sideNumber, timingNumber, unexpected,
 } from './checks.js';
 import { removedIndex, removerHandle, writeClip } from './remover.js';
 import {
@@ -12,7 +12,7 @@ import {
 const kLoops = ['off', 'auto', 'on'];
 const kNeutralShape = {
   strength: 1, posture: 1, dynamics: 1, timing: 1, legs: 1, torso: 1, leftArm: 1, rightArm: 1,
-  footLock: 1, handContacts: 1,
+  footLock: 1, handContacts: 1, energy: 1,
 };
 const kStylizing = { easeSeconds: 0.15, smoothingSeconds: 0.04, holdFeet: true, styleRoot: true,
   maxSpeed: 15, gestureRate: 1, gestureSeed: 0 };
@@ -114,6 +114,13 @@ export class Character {
     const index = this.#panache._styleIndex(style, this.#styles);
     this.#wasm.panache_character_set_side(character, index, sideNumber(side, this.#styles[index]));
   }
+  setPerson(person, variety = 1) {
+    const character = this.#handle();
+    const [seed, amount] = personNumbers(person, variety, (word) => this.#panache._seedOf(word));
+    if (amount === 0 && this.#panache.personAxes.length === 0) return;
+    this.#panache._arena((arena) => arena.check(
+      this.#wasm.panache_character_set_person(character, seed, amount)));
+  }
   trigger(style, gesture = 0) {
     const character = this.#handle();
     const index = this.#panache._styleIndex(style, this.#styles);
@@ -184,6 +191,18 @@ function writeSides(arena, panache, sides) {
   return arena.copy(all);
 }
 
+// Writes the numbers of a person; null for nobody.
+function writePerson(arena, panache, person, variety) {
+  const [seed, amount] = personNumbers(person, variety, (word) => panache._seedOf(word));
+  if (amount === 0) return 0;
+  const count = Math.max(1, panache.personAxes.length), at = arena.allocate(4 * count);
+  arena.check(panache._wasm.panache_model_draw_person(
+    panache._model(), seed, at, panache.personAxes.length));
+  const numbers = new Float32Array(panache._wasm.memory.buffer, at, count);
+  numbers.forEach((number, i) => (numbers[i] = number * amount));
+  return at;
+}
+
 // The style that stylizeClip() removes first.
 function removalOf(panache, remover, remove) {
   if (!remover && remove === null) return {};
@@ -196,8 +215,9 @@ function removalOf(panache, remover, remove) {
 
 export function stylizeClip(panache, skeleton, clip, strengths, options) {
   const wasm = panache._wasm;
-  const { shape, styleTiming, loop, remover, remove, sides, ...told } = optionsOf({ ...kStylizing,
-    styleTiming: 'steps', shape: {}, loop: 'auto', remover: null, remove: null, sides: {} }, options);
+  const { shape, styleTiming, loop, remover, remove, sides, person, variety, ...told } = optionsOf(
+    { ...kStylizing, styleTiming: 'steps', shape: {}, loop: 'auto', remover: null, remove: null,
+      sides: {}, person: null, variety: 1 }, options);
   if (!kLoops.includes(loop)) throw unexpected('loop', "'auto', 'on' or 'off'", loop);
   const joints = skeleton.jointCount;
   const styled = panache._arena((arena) => {
@@ -208,6 +228,7 @@ export function stylizeClip(panache, skeleton, clip, strengths, options) {
       structSize: kStylizeOptions.size, ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
       shape: writeShape(arena, shape), loop: kLoops.indexOf(loop),
       ...removalOf(panache, remover, remove), sides: writeSides(arena, panache, sides),
+      person: writePerson(arena, panache, person, variety),
     });
     const list = arena.array(kStrengthTrack, tracks);
     return arena.create((out) => wasm.panache_stylize_clip(

@@ -69,6 +69,16 @@ export function sideNumber(side, { name, side: captured }) {
   throw unexpected(`side of '${name}'`,
     `${[...words.keys()].map((word) => `'${word}'`).join(', ')} or a number from -1 to 1`, side);
 }
+// Returns the seed and the amount of a person; of null, nobody. `seedOf` gives the seed of a word.
+export function personNumbers(person, variety, seedOf) {
+  if (!(typeof variety === 'number' && variety >= 0 && variety <= 2)) {
+    throw unexpected('variety', 'a number from 0 to 2', variety);
+  }
+  if (person === null) return [0, 0];
+  if (typeof person === 'string' && person) return [seedOf(person), variety];
+  if (Number.isInteger(person) && person >= 0 && person < 2 ** 32) return [person, variety];
+  throw unexpected('person', 'a word, a whole number from 0 to 4294967295, or null', person);
+}
 // Checks the result of a trigger: whether the style has such a gesture.
 export function checkTriggered(found, { name, gestures }, gesture) {
   if (found) return;

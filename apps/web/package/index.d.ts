@@ -85,6 +85,9 @@ export interface LearnReport {
  * the mean of both; 'left' and 'right' if the style's `side` tells which was captured. */
 export type Side = number | 'captured' | 'mirrored' | 'left' | 'right';
 
+/** A person by a seed: each whole number and each word is another one; null is nobody. */
+export type Person = number | string | null;
+
 /** Scales the parts of what the styles do, 0 to 2; 1 is the style as the model has it. Posture is
  * the constant part of the change, dynamics the rest. Parts of the body are relative to what they
  * are attached to. */
@@ -103,6 +106,9 @@ export interface Shape {
   footLock: number;
   /** How firmly hands keep what they touch, 0 to 1. */
   handContacts: number;
+  /** From calm to lively: how much of the input's own movement of torso, head and arms is kept, with
+   * or without a style. */
+  energy: number;
 }
 
 /** One joint of your skeleton. */
@@ -170,6 +176,9 @@ export interface StylizeOptions extends StylizingOptions {
   shape?: Partial<Shape>;
   /** Sides of styles that are not put on as captured, by style. */
   sides?: Record<string, Side>;
+  /** See Character.setPerson(); default: null and 1. */
+  person?: Person;
+  variety?: number;
   /** Whether the last pose of the result equals its first, except for travel: if it does in the
    * clip ('auto'), always, or an error if the two are too far apart ('on'), or never ('off'). */
   loop?: 'auto' | 'on' | 'off';
@@ -258,6 +267,10 @@ export class Character {
   setStrength(style: string, strength: number): void;
   /** Initially 'captured'. Eased in. Throws if the model has no such style or the style no such side. */
   setSide(style: string, side: Side): void;
+  /** Moves as somebody else does, in addition to the styles; initially null, nobody. `variety`: how
+   * far from the mean person, 0 to 2; 1, the default, is as people differ. Eased in. Throws if the
+   * model has no persons. */
+  setPerson(person: Person, variety?: number): void;
   /** Plays a gesture of a style (its index in `gestures`; 0) at the style's strength. Waits up to
    * 3 s until no other gesture plays and a foot is on the floor; otherwise drops it. Throws if the
    * style has no such gesture. */
@@ -285,6 +298,8 @@ export class Panache {
     walker?: ArrayBuffer | Uint8Array;
   }): Promise<Panache>;
   readonly styles: readonly Style[];
+  /** What the numbers of a person change most, "arm swing"; empty if the model has no persons. */
+  readonly personAxes: readonly string[];
   /** Replaces the model. Players switch to it, all strengths 0 and sides as captured; characters keep
    * theirs.
    * Error messages begin with `name`. */
@@ -380,6 +395,8 @@ declare class Player {
   /** Like the methods of Character. */
   setStrength(style: string, strength: number): void;
   setSide(style: string, side: Side): void;
+  /** Nobody in a model without persons. */
+  setPerson(person: Person, variety?: number): void;
   setShape(shape: Partial<Shape>): void;
   /** See StylizingOptions.gestureRate; 1 at first. */
   setGestureRate(rate: number): void;

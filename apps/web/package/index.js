@@ -4,7 +4,7 @@
 import { Character, Skeleton, stylizeClip, writeShape } from './character.js';
 import {
   PanacheError, checkBytes, checkFinite, checkInteger, checkKeys, checkTriggered, handleFor, inUse,
-  lastError, sideNumber, timingNumber, unexpected,
+  lastError, personNumbers, sideNumber, timingNumber, unexpected,
 } from './checks.js';
 import { PoseFilter } from './filter.js';
 import { Arena } from './memory.js';
@@ -56,6 +56,7 @@ export class Panache {
   constructor(wasm, model, walker) {
     this.#wasm = wasm;
     this.styles = [];
+    this.personAxes = [];
     if (model) this.#useModel(model, 'the model');
     if (walker) {
       checkBytes(walker, 'the walker');
@@ -78,6 +79,8 @@ export class Panache {
     this.#model = model;
     this.#bytes = bytes;
     this.styles = this._stylesOf(model);
+    this.personAxes = Array.from({ length: wasm.panache_model_person_axis_count(model) },
+      (_, axis) => this._text(wasm.panache_model_person_axis_name(model, axis)));
     for (const player of this.#players) player._useModel();
     wasm.panache_model_destroy(old);
   }
@@ -201,6 +204,14 @@ export class Panache {
     if (handle) return handle;
     throw lastError(this.#wasm);
   }
+  // A text of the module that ends with a zero.
+  _text(at) {
+    const bytes = new Uint8Array(this.#wasm.memory.buffer, at);
+    return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
+  }
+  _seedOf(word) {
+    return this._arena((arena) => this.#wasm.panache_person_seed(arena.text(word)));
+  }
   _arena(use) { return Arena.use(this.#wasm, use); }
   _json(handle) { return JSON.parse(new TextDecoder().decode(this._take(handle))); }
   // Copies the content of a panache_bytes and frees it.
@@ -278,6 +289,10 @@ class Player {
     const index = this.#panache._styleIndex(style);
     this._wasm.panache_page_player_set_side(
       this._player, index, sideNumber(side, this.#panache.styles[index]));
+  }
+  setPerson(person, variety = 1) {
+    const [seed, amount] = personNumbers(person, variety, (word) => this.#panache._seedOf(word));
+    this._wasm.panache_page_player_set_person(this._player, seed, amount);
   }
   setShape(shape) {
     this.#panache._arena((arena) => arena.check(

@@ -14,10 +14,12 @@ export const kCharacterOptions = struct(['structSize', 'i32'], ['easeSeconds', '
 export const kStylizeOptions = struct(['structSize', 'i32'], ['easeSeconds', 'f32'],
   ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['styleTiming', 'i32'],
   ['shape', 'i32'], ['maxSpeed', 'f64'], ['loop', 'i32'], ['removed', 'i32'],
-  ['remover', 'i32'], ['gestureRate', 'f32'], ['gestureSeed', 'i32'], ['sides', 'i32']);
+  ['remover', 'i32'], ['gestureRate', 'f32'], ['gestureSeed', 'i32'], ['sides', 'i32'],
+  ['person', 'i32']);
 export const kShape = struct(['structSize', 'i32'], ['strength', 'f32'], ['posture', 'f32'],
   ['dynamics', 'f32'], ['timing', 'f32'], ['legs', 'f32'], ['torso', 'f32'], ['leftArm', 'f32'],
-  ['rightArm', 'f32'], ['footLock', 'f32'], ['handContacts', 'f32']);
+  ['rightArm', 'f32'], ['footLock', 'f32'], ['handContacts', 'f32'],
+  ['energy', 'f32']);
 export const kReport = struct(['structSize', 'i32'], ['gate', 'f32'], ['contacts', 'f32', 2],
   ['rate', 'f64'], ['ahead', 'f64']);
 export const kInputPose = struct(['rotations', 'i32'], ['translations', 'i32']);

@@ -114,13 +114,14 @@ export class Ground {
     drift.copy(way).multiplyScalar(4).round().divideScalar(4).sub(way).multiplyScalar(share);
   }
 
-  /** Keeps the ground under the body without moving the lines. `feet` are the toes. */
-  follow(place: THREE.Vector3, feet: readonly THREE.Vector3[]) {
-    this.#shadow.visible = !this.spots;
+  /** Keeps the ground under the body without moving the lines. `feet` are the toes; null: no body
+   * stands there. */
+  follow(place: THREE.Vector3, feet: readonly THREE.Vector3[] | null) {
+    this.#shadow.visible = !this.spots && feet !== null;
     this.#spots.forEach((spot, i) => {
-      const over = i === 0 ? place : feet[i - 1];
-      spot.visible = this.spots && over !== undefined;
-      if (!spot.visible) return;
+      const over = i === 0 ? place : feet?.[i - 1];
+      spot.visible = this.spots && feet !== null && over !== undefined;
+      if (!spot.visible || !over) return;
       spot.position.set(over.x - place.x, 0.002 + 0.001 * i, over.z - place.z);
       const near = i === 0 ? 0.6 : Math.exp(-6 * Math.max(0, over.y - 0.03));
       spot.material.uniforms.strength.value = 0.5 * near;

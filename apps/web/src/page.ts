@@ -5,6 +5,7 @@ import { attempt, say } from './alerts';
 import type { Angle } from './camera';
 import { find, forgetColours } from './dom';
 import { listenToDrops } from './drops';
+import { Crowd } from './crowd';
 import { Exporter } from './exporter';
 import { Figures } from './figures';
 import { Cross } from './gamepad';
@@ -15,13 +16,13 @@ import { buildPanel, captionOf } from './panel';
 import { Plots } from './plots';
 import { kRemovable, Removal } from './removal';
 import { served } from './served';
-import { fromAddress, rememberInAddress, Store, type Settings } from './settings';
+import { fromAddress, rememberInAddress, Store, type Settings, type View } from './settings';
 import { listenToKeys } from './shortcuts';
 import {
   clipSource, firstMotion, isModel, openMoving, putTogether, walkSource, type Source,
 } from './source';
 import { Stage } from './stage';
-import { Steering, type Pace } from './steering';
+import { Steering, type Pace, type Wish } from './steering';
 import { applySettings, keyedNow, triggerAny } from './styling';
 import { buildFileControls, buildWalkerControls, listFiles, showPace } from './toolbar';
 import { Track } from './track';
@@ -43,6 +44,7 @@ export class Page {
   readonly removal: Removal;
   readonly learn: Learn;
   #track: Track;
+  readonly crowd: Crowd;
   readonly help = buildHelp();
   source: Source;
   frames = 0;
@@ -52,6 +54,8 @@ export class Page {
   #cut = true;
   #last = 0;
   #seconds = 0;
+  #passed = 0;  // Seconds in the last frame.
+  #wish: Wish = { speed: 0, turn: 0 };
 
   /** Whether the model has arrived: until then the walker walks without styles. */
   ready = false;
@@ -70,6 +74,8 @@ export class Page {
     find('.clip-row').append(this.#track.toggle);
     this.#panel = buildPanel(this);
     this.#figures = new Figures(panache);
+    this.crowd = new Crowd(panache);
+    this.stage.gather(this.crowd);
     buildViewControls(this);
     this.stage.keepClear = () => {
       const chips = find('#camera').getBoundingClientRect();
@@ -135,6 +141,9 @@ export class Page {
     this.#cross.step(seconds);
     this.#advance(seconds);
     this.#figures.step(seconds);
+    if (this.store.settings.view === 'crowd') {
+      this.crowd.step(this.source, this.stage.styledLook, this.#passed, this.#wish);
+    }
     this.stage.update(this.source, this.#cut, seconds);
     this.#cut = false;
     this.stage.draw(seconds);
@@ -145,13 +154,15 @@ export class Page {
   #advance(seconds: number) {
     const source = this.source;
     if (source.kind === 'walk') {
-      const { speed, turn } = this.steering.wish(seconds);
-      source.player.steer(speed, turn);
+      this.#wish = this.steering.wish(seconds);
+      source.player.steer(this.#wish.speed, this.#wish.turn);
       source.player.step(seconds);
+      this.#passed = seconds;
       this.#seconds += seconds;
       return;
     }
     const { passed, cut } = this.transport.play(source, seconds);
+    this.#passed = passed;
     this.#seconds += passed;
     this.#cut ||= cut;
     this.#track.at(source.player.seconds);
@@ -180,9 +191,17 @@ export class Page {
       });
     }
     find('#caption').textContent = captionOf(settings, this.source.kind === 'clip');
-    this.stage.view = settings.view;
+    this.#setView(settings.view);
+    if (settings.view === 'crowd') this.crowd.apply(settings, remover);
     this.stage.trail = settings.trail;
     this.stage.onion = settings.onion;
+  }
+
+  #setView(view: View) {
+    const [before] = [this.stage.view, (this.stage.view = view)];
+    if ((before === 'crowd') === (view === 'crowd')) return;
+    if (before === 'crowd') this.crowd.clear();
+    this.look('face');
   }
 
   isActive(name: string): boolean {
@@ -284,6 +303,7 @@ export class Page {
       if (old.kind === 'clip' && (source.kind !== 'clip' || source.file !== old.file)) {
         old.file.free();
       }
+      this.crowd.clear();
       old.player.free();
     }
     this.source = source;

@@ -36,6 +36,8 @@ const kAmountHints = {
   dynamics: 'Fast part of the change: swing, bounce, step length',
   timing: 'Change of tempo',
   gestures: 'How often the styles make their gestures: 1 as often as the performers, 0 never',
+  energy: 'From calm to lively: the input\'s own movement of torso, head and arms',
+  variety: 'How far the person is from the mean of people',
 };
 const kSwitchTitles: Record<Switch, [string, string]> = {
   legs: ['Legs', 'Apply the style to legs and root motion'],
@@ -46,6 +48,7 @@ const kSwitchTitles: Record<Switch, [string, string]> = {
   hands: ['Hand contacts', 'Hands keep what they touch'],
   trail: ['Foot trails', 'Paths of the toes'],
   onion: ['Past poses', 'Poses of the last second (N)'],
+  mixed: ['A style each', 'Each of the crowd in another style'],
 };
 const kTempoTitles: Record<Timing, [string, string]> = {
   steps: ['Steps', 'The style\'s tempo only where the feet step; talk and gestures keep their length'],
@@ -53,7 +56,7 @@ const kTempoTitles: Record<Timing, [string, string]> = {
   off: ['Off', 'The input\'s tempo, frame by frame'],
 };
 const kViewTitles: Record<View, string> = {
-  styled: 'Styled', side: 'Side by side', over: 'Overlaid',
+  styled: 'Styled', side: 'Side by side', over: 'Overlaid', crowd: 'Crowd',
 };
 
 function toggle(text: string, hint: string, pressed: (s: Settings) => boolean, store: Store,
@@ -82,8 +85,8 @@ function presets(store: Store) {
   return { group, setStyles };
 }
 
-function amountSliders(store: Store) {
-  return kAmounts.map((key) => {
+function amountSliders(store: Store, amounts: readonly (typeof kAmounts)[number][]) {
+  return amounts.map((key) => {
     const slider = new Slider({
       id: `amount-${key}`, title: capitalized(key), hint: kAmountHints[key], least: 0, most: 2, rest: 1,
       onChange: (value) => store.set({ [key]: value }),
@@ -91,6 +94,24 @@ function amountSliders(store: Store) {
     store.listen((settings) => slider.show(settings[key]));
     return slider.row;
   });
+}
+
+/** Who the character is, and how far from the mean of people. */
+function personControls(store: Store) {
+  const field = element('input', { type: 'text', id: 'person', maxlength: 40,
+    placeholder: 'Nobody: a number or a word …', 'aria-label': 'Person' });
+  field.addEventListener('change', () => store.set({ person: field.value.trim() }));
+  store.listen(({ person }) => {
+    if (document.activeElement !== field) field.value = person;
+  });
+  const another = button('Another', () => {
+    const person = String(1 + Math.floor(Math.random() * 9999));
+    store.set({ person });
+  }, { id: 'another', title: 'Another person, at random' });
+  const nobody = button('Nobody', () => store.set({ person: '' }), { id: 'nobody' });
+  store.listen(({ person }) => nobody.setAttribute('aria-pressed', String(person === '')));
+  return [field, element('div', { class: 'chips', role: 'group', 'aria-label': 'Person' },
+    another, nobody), ...amountSliders(store, ['variety'])];
 }
 
 /** A field that filters the styles. */
@@ -136,7 +157,10 @@ export function buildPanel(page: Page) {
     element('h2', {}, 'Mixes'), chips.group,
     element('h2', {}, 'Input'), page.removal.element,
     element('h2', {}, 'Blend of four'), pad.element,
-    element('h2', {}, 'Amount'), ...amountSliders(store),
+    element('h2', {}, 'Person'), ...personControls(store),
+    element('div', { class: 'chips', role: 'group', 'aria-label': 'Crowd' }, ...switches(['mixed'])),
+    element('h2', {}, 'Amount'),
+    ...amountSliders(store, kAmounts.filter((key) => key !== 'variety')),
     element('div', { class: 'chips', id: 'tempo', role: 'group', 'aria-label': 'Tempo of the style' },
       element('span', { class: 'word' }, 'Tempo of the style'), ...tempos),
     element('h2', {}, 'Body parts'),

@@ -1,16 +1,18 @@
 // All settings, and their conversion to and from the page's address.
 
-import type { Shape, Timing } from '../package/index.js';
+import type { Person, Shape, Timing } from '../package/index.js';
 import { fromText, toText, type Key } from './keys';
 
 export const kLeast = -0.5;
 export const kMost = 2;
 
 export const kRegions = ['legs', 'torso', 'leftArm', 'rightArm'] as const;
-export const kAmounts = ['strength', 'posture', 'dynamics', 'timing', 'gestures'] as const;
+export const kAmounts =
+  ['strength', 'posture', 'dynamics', 'timing', 'gestures', 'energy', 'variety'] as const;
 export const kTempos = ['steps', 'all', 'off'] as const satisfies readonly Timing[];
-export const kViews = ['styled', 'side', 'over'] as const;
-const kSwitches = [...kRegions, 'feet', 'hands', 'trail', 'onion'] as const;
+export const kViews = ['styled', 'side', 'over', 'crowd'] as const;
+const kLongestPerson = 40;  // Characters.
+const kSwitches = [...kRegions, 'feet', 'hands', 'trail', 'onion', 'mixed'] as const;
 export type Switch = (typeof kSwitches)[number];
 export type View = (typeof kViews)[number];
 
@@ -21,6 +23,8 @@ export interface Settings extends Record<(typeof kAmounts)[number], number>, Rec
   keys: Record<string, readonly Key[]>;
   /** Side of each style that is not as captured: -1 mirrored, to 1. */
   sides: Record<string, number>;
+  /** A number or a word: who the character is; empty: nobody. */
+  person: string;
   /** The style to remove from the input: one of the remover's, or empty. */
   removed: string;
   /** Where the motion takes the tempo of its styles. */
@@ -33,12 +37,15 @@ export const kDefaults: Readonly<Settings> = {
   styles: {},
   keys: {},
   sides: {},
+  person: '',
   removed: '',
-  strength: 1, posture: 1, dynamics: 1, timing: 1, gestures: 1, tempo: 'steps',
+  strength: 1, posture: 1, dynamics: 1, timing: 1, gestures: 1, energy: 1, variety: 1,
+  tempo: 'steps',
   legs: true, torso: true, leftArm: true, rightArm: true, feet: true, hands: true,
   view: 'side',
   trail: true,
   onion: false,
+  mixed: false,
 };
 /** What a visitor sees first. */
 export const kOpening: Readonly<Settings> = { ...kDefaults, styles: { old: 1 } };
@@ -66,6 +73,7 @@ export function toAddress(settings: Settings): string {
   for (const [name, side] of Object.entries(settings.sides)) {
     out.set(kSide + name, side === -1 ? 'mirrored' : String(side));
   }
+  if (settings.person) out.set('person', settings.person);
   if (settings.removed) out.set('removed', settings.removed);
   for (const key of kAmounts) if (settings[key] !== 1) out.set(key, String(settings[key]));
   for (const key of kSwitches) {
@@ -111,6 +119,8 @@ export function fromAddress(text: string, styles: readonly string[],
       setKeys(key.slice(kKeys.length));
     } else if (key.startsWith(kSide) && styles.includes(key.slice(kSide.length))) {
       setSide(key.slice(kSide.length));
+    } else if (key === 'person') {
+      settings.person = value.trim().slice(0, kLongestPerson);
     } else if (isOne(kAmounts, key)) {
       settings[key] = bounded(number, 0, 2, 1);
     } else if (isOne(kSwitches, key)) {
@@ -128,10 +138,17 @@ export function fromAddress(text: string, styles: readonly string[],
 
 /** The settings as the library's Shape. */
 export function shapeOf(settings: Settings): Partial<Shape> {
-  const { posture, dynamics, timing } = settings;
+  const { posture, dynamics, timing, energy } = settings;
   const regions = Object.fromEntries(kRegions.map((key) => [key, Number(settings[key])]));
   return { posture, dynamics, timing, ...regions, footLock: Number(settings.feet),
-    handContacts: Number(settings.hands) };
+    handContacts: Number(settings.hands), energy };
+}
+
+/** The person as the library takes it. */
+export function personOf({ person }: Settings): Person {
+  if (!person) return null;
+  const number = Number(person);
+  return /^\d+$/.test(person) && number < 2 ** 32 ? number : person;
 }
 
 const kTogether = 500;  // Milliseconds; closer changes, as in a drag, are undone together.

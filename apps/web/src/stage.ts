@@ -7,12 +7,13 @@ import { humanJoints } from '../package/index.js';
 import { Camera, type Angle } from './camera';
 import { colour } from './dom';
 import { Ground } from './ground';
-import { bodyGeometry, Mannequin } from './mannequin';
+import type { Crowd } from './crowd';
+import { bodyGeometry, Mannequin, type Look } from './mannequin';
 import { Marks } from './marks';
 import type { View } from './settings';
 import type { SkinnedCharacter } from './skinned';
 
-const kInputLayer = 1, kStyledLayer = 2;
+const kInputLayer = 1, kStyledLayer = 2, kCrowdLayer = 3;
 const kAboveBody = 0.16;      // Share of the view that is free above a fitted body.
 const kMaxDown = 0.08;        // Share of the view.
 const kGhost = 0.4;           // Opacity of the input over the output.
@@ -25,6 +26,8 @@ export interface Seen {
   readonly joints: number;
   readonly own: readonly [SkinnedCharacter, SkinnedCharacter] | null;
 }
+
+const kStyledLook: Look = { body: '#efe6d8', accent: '#d9622b' };
 
 interface Stand {
   place: THREE.Vector3;
@@ -63,6 +66,8 @@ export class Stage {
   view: View = 'styled';
   trail = true;
   onion = false;
+  /** The figures of the view `crowd`. */
+  #crowd: Crowd | null = null;
   /** Shows only the input, in all views, for comparison. */
   comparing = false;
   /** Height at the top, in pixels, to keep free of bodies if there is room. */
@@ -135,7 +140,7 @@ export class Stage {
     const place = (object: THREE.Object3D, layer: number) =>
       this.#scene.add(onLayer(object, layer));
     const inputLook = { body: '#a9b9cc', accent: '#4d6480' };
-    const styledLook = { body: '#efe6d8', accent: '#d9622b' };
+    const styledLook = kStyledLook;
     this.#onions = Array.from({ length: kOnions }, () => new Mannequin(geometry, body, styledLook));
     this.#onions.forEach((onion, i) => {
       place(onion.object, kStyledLayer);
@@ -152,12 +157,23 @@ export class Stage {
     this.look('face', player);
   }
 
+  /** Shows a crowd in its view. */
+  gather(crowd: Crowd) {
+    this.#crowd = crowd;
+    this.#scene.add(onLayer(crowd.group, kCrowdLayer));
+  }
+  /** How the styled body looks. */
+  get styledLook(): Look { return kStyledLook; }
+
   /** Moves the camera to the front, the side, the top, ... of the bodies, and fits them in. */
   look(angle: Angle, player: Seen['player']) {
     if (!this.#bodies) return;
     const { input, styled } = this.#bodies;
     const box = styled.box;
-    if (this.view !== 'styled') {
+    if (this.view === 'crowd' && this.#crowd) {
+      const { size } = this.#crowd;
+      box.setFromCenterAndSize(this.#styled.place.clone().setY(size.y / 2), size);
+    } else if (this.view !== 'styled') {
       box.union(input.box.translate(this.#styled.place.clone().sub(this.#input.place)));
     }
     this.#camera.look(angle, player.parts('styled'), box);
@@ -240,7 +256,7 @@ export class Stage {
 
   /** The visible bodies. */
   get seenBodies(): readonly ('input' | 'styled')[] {
-    return this.view === 'styled' ? ['styled'] : ['input', 'styled'];
+    return this.view === 'styled' || this.view === 'crowd' ? ['styled'] : ['input', 'styled'];
   }
   /** A view of another player with the same angle, on a separate canvas; free() it. */
   studio(source: Seen): Stage {
@@ -294,7 +310,8 @@ export class Stage {
       this.#drawPart(this.#otherCamera, 0, half, [kInputLayer]);
       this.#drawPart(camera, half, width - half, [kStyledLayer]);
     } else {
-      const layers = this.view === 'over' ? [kInputLayer, kStyledLayer] : [kStyledLayer];
+      const layers = { over: [kInputLayer, kStyledLayer], styled: [kStyledLayer],
+        crowd: [kCrowdLayer] }[this.view];
       this.#drawPart(camera, 0, width, layers);
     }
   }
@@ -307,14 +324,14 @@ export class Stage {
   /** Centres on the styled body if its layer is among `layers`, else on the input. */
   #drawPart(camera: THREE.PerspectiveCamera, left: number, width: number, layers: number[]) {
     const { height } = this.#size;
-    const which = layers.includes(kStyledLayer) ? 'styled' : 'input';
+    const which = layers.join() === `${kInputLayer}` ? 'input' : 'styled';
     const { place, toes } = which === 'input' ? this.#input : this.#styled;
     camera.setViewOffset(width, height, 0, -this.#down, width, height);
     camera.zoom = this.#camera.zoomFor(camera.aspect);
     camera.updateProjectionMatrix();
     camera.layers.set(0);
     for (const layer of layers) camera.layers.enable(layer);
-    this.#ground.follow(place, toes);
+    this.#ground.follow(place, layers.includes(kCrowdLayer) ? null : toes);
     if (this.#loops) this.#ground.close(this.#loops[which], this.#loops.share);
     this.#sun.position.set(place.x + 1.6, 4.2, place.z + 2);
     this.#sun.target.position.set(place.x, 0.6, place.z);

@@ -55,7 +55,7 @@ export class Steering {
       const target = event.target as HTMLElement;
       const taken = target.matches('input, select, textarea, [data-arrows]') &&
         event.code.startsWith('Arrow');
-      const typing = target.matches('input[type=number]');
+      const typing = target.matches('input:is([type=number], [type=search], [type=text])');
       if (taken || typing || event.ctrlKey || event.metaKey || event.altKey) return;
       if (!kSteeringKeys.test(event.code)) return;
       this.#held.add(event.code);

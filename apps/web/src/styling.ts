@@ -2,11 +2,11 @@
 
 import { Playback, type Panache, type Remover, type Walk } from '../package/index.js';
 import { strengthAt, type Key } from './keys';
-import { shapeOf, type Settings } from './settings';
+import { personOf, shapeOf, type Settings } from './settings';
 import type { Source } from './source';
 
-/** Sets a player's strengths, keyframes, sides, shape, timing and gestures, and the style to remove once the remover
- * is loaded. */
+/** Sets a player's strengths, keyframes, sides, person, shape, timing and gestures, and the style to
+ * remove once the remover is loaded. */
 export function applySettings(panache: Panache, player: Walk | Playback, settings: Settings,
     remover: Remover | null) {
   if (remover) {
@@ -20,6 +20,7 @@ export function applySettings(panache: Panache, player: Walk | Playback, setting
     player.setTrack(name, (settings.keys[name] ?? [])
       .map(([seconds, value]): Key => [seconds, value * settings.strength]));
   }
+  player.setPerson(personOf(settings), settings.variety);
   player.setShape(shapeOf(settings));
   player.setTiming(settings.tempo);
   player.setGestureRate(settings.gestures);

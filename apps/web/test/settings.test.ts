@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
 
 import {
-  bounded, fromAddress as read, kDefaults, kOpening, shapeOf, Store, toAddress,
+  bounded, fromAddress as read, kDefaults, kOpening, personOf, shapeOf, Store, toAddress,
 } from '../src/settings';
 import { otherSide } from '../src/side';
 
@@ -131,11 +131,23 @@ describe('undo', () => {
   });
 });
 
+describe('the person', () => {
+  const person = (text: string) => personOf(read(text, [], []));
+  it('is a seed, a word or nobody', () => {
+    expect(person('person=7&variety=1.5')).toBe(7);
+    expect(person('person=Mara')).toBe('Mara');
+    expect(person('person=4294967296')).toBe('4294967296');  // Too large for a seed.
+    expect(person('variety=0.5')).toBe(null);
+    expect(toAddress({ ...kDefaults, person: 'Mara', variety: 0.5, view: 'crowd', mixed: true }))
+      .toBe('person=Mara&variety=0.5&mixed=on&view=crowd');
+  });
+});
+
 describe('the shape', () => {
   it('turns switches into weights', () => {
     expect(shapeOf({ ...kDefaults, leftArm: false, feet: false, dynamics: 0.5 })).toEqual({
       posture: 1, dynamics: 0.5, timing: 1, legs: 1, torso: 1, leftArm: 0, rightArm: 1, footLock: 0,
-      handContacts: 1,
+      handContacts: 1, energy: 1,
     });
   });
 });

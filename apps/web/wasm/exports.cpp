@@ -210,6 +210,10 @@ PANACHE_EXPORT void panache_page_player_set_track(Player* player, int32_t style,
 PANACHE_EXPORT void panache_page_player_set_side(Player* player, int32_t style, float side) {
   player->set_side(style, side);
 }
+// See panache_character_set_person().
+PANACHE_EXPORT void panache_page_player_set_person(Player* player, uint32_t seed, float amount) {
+  player->set_person(seed, amount);
+}
 PANACHE_EXPORT panache_status panache_page_player_use_model(Player* player,
                                                             const panache_model* model) {
   return status_of(player->use_model(model->model), PANACHE_BAD_SKELETON);

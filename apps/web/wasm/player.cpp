@@ -103,11 +103,17 @@ void Player::set_gesture_rate(float rate) {
   if (stylizer_) stylizer_->set_gesture_rate(rate);
 }
 
+void Player::set_person(uint32_t seed, float amount) {
+  person_ = seed, variety_ = amount;
+  if (stylizer_) stylizer_->set_person(person_of_seed(*model_, person_, variety_));
+}
+
 StylizerOptions Player::options() const {
   StylizerOptions options;
   options.tempo_everywhere = timing_ == Timing::all;
   options.sides = sides_;
   options.gesture_rate = gesture_rate_;
+  if (model_) options.person = person_of_seed(*model_, person_, variety_);
   return options;
 }
 
@@ -145,6 +151,7 @@ float Player::gate() const {
 Result<void> Player::use_model(std::shared_ptr<const Model> model) {
   StylizerOptions how = options();
   how.sides.clear();
+  how.person = person_of_seed(*model, person_, variety_);
   Result<Stylizer> stylizer = Stylizer::create(model, source_.rig(), how);
   if (!stylizer) return stylizer.error();
   model_ = std::move(model);

@@ -59,6 +59,9 @@ class Player {
   void set_side(int style, float side);
   // See StylizerOptions::gesture_rate.
   void set_gesture_rate(float rate);
+  // Makes the character the person of a seed, see person_of_seed(); nobody in a model without
+  // persons.
+  void set_person(uint32_t seed, float amount);
   Shape& shape() { return shape_; }
   // Used from the next step on; the motion continues. Initially Timing::steps.
   void set_timing(Timing timing);
@@ -103,7 +106,7 @@ class Player {
 
  private:
   explicit Player(Source source);
-  // For the current timing, sides and gestures.
+  // For the current timing, sides, gestures and person.
   StylizerOptions options() const;
   // Writes the strengths at this instant to strengths_now_.
   void read_strengths();
@@ -124,6 +127,8 @@ class Player {
   Shape shape_;
   Timing timing_ = Timing::steps;
   float gesture_rate_ = 1;
+  uint32_t person_ = 0;  // A seed,
+  float variety_ = 0;    // and how far from the mean person.
   double rate_ = 1, removal_rate_ = 1;  // Rates of the two passes.
 };
 

@@ -316,6 +316,33 @@ test('every plot shows what it says', async () => {
   }, ['gate', 'rate', 'contacts']);
 });
 
+test('a crowd is of different people who are steered together', async () => {
+  await button('Reset all').click();
+  await button('Crowd').click();
+  await tab.waitForFunction(() => window.page.crowd.count === 60, null, { timeout: 60000 });
+  await button('Idle').click();
+  await tab.waitForTimeout(4000);
+  // The mean distance of joints, relative to the hips, from their mean over the standing crowd.
+  const spread = () => tab.evaluate(() => {
+    const poses = window.page.crowd.poses.map((parts) => Array.from({ length: 63 }, (_, i) =>
+      parts[7 * Math.floor(i / 3) + i % 3] - parts[i % 3]));
+    const mean = poses[0].map((_, i) => poses.reduce((sum, pose) => sum + pose[i], 0) / 60);
+    return poses.reduce((sum, pose) => sum + pose.reduce(
+      (all, value, i) => all + Math.abs(value - mean[i]), 0) / 63, 0) / 60;
+  });
+  const people = await spread();
+  await tab.locator('#amount-variety').fill('0');
+  await tab.waitForTimeout(3000);
+  const clones = await spread();
+  assert.ok(people > 0.008 && people > 2 * clones, `${people} m apart, clones ${clones} m`);
+  assert.match(await tab.locator('#crowd-facts').textContent(),
+    /^60 characters, \d+ frames a second, \d+ µs a character/);
+  await button('Styled').click();
+  assert.equal(await tab.evaluate(() => window.page.crowd.count), 0);
+  await button('Walk').click();
+  await button('Reset all').click();
+});
+
 test('every change is undone and redone, and Reset all resets all', async () => {
   await button('Reset all').click();
   await tab.waitForTimeout(550);  // What is done within half a second counts as one.
