@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "base/file.h"
+#include "bench/motions.h"
 #include "bench/networks.h"
 #include "bench/peers.h"
 #include "bench/published.h"
@@ -20,6 +21,7 @@ namespace {
 // Share of the time after the networks, the steps and the crowds.
 constexpr double kAfterLimits = 0.03, kAfterRace = 0.5, kAfterSteps = 0.85;
 // A one-second gait cycle at 60 frames a second.
+constexpr int64_t kHardShare = 10;  // Of the steps of a walk: those of each other motion.
 constexpr float kPhaseStep = 1.0f / 60;
 
 ProgressCall part_of(const ProgressCall& progress, double from, double to) {
@@ -147,6 +149,10 @@ Result<Measurements> measure_all(const Options& options, const ProgressCall& pro
   if (!model) return model.error();
   const Result<Clip> walk = make_walk(options.walker_model);
   if (!walk) return walk.error();
+  const Result<Clip> clap = make_clap(options.walker_model);
+  if (!clap) return clap.error();
+  const Result<Clip> crouch = make_crouch(options.walker_model);
+  if (!crouch) return crouch.error();
 
   Measurements out;
   out.pinned = pin_to_one_core();
@@ -168,6 +174,9 @@ Result<Measurements> measure_all(const Options& options, const ProgressCall& pro
   out.character_bytes = *character;
 
   out.steps = time_steps(*model, *walk, options.steps, part_of(progress, kAfterRace, kAfterSteps));
+  const int64_t some = options.steps / kHardShare;
+  out.hard_steps = {{"clap", time_steps(*model, *clap, some)},
+                    {"crouch", time_steps(*model, *crouch, some)}};
   constexpr double kAfterCrowds = (kAfterSteps + 1) / 2;
   auto crowds = time_crowds(*bytes, *walk, options.crowd_rounds(),
                             part_of(progress, kAfterSteps, kAfterCrowds));

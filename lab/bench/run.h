@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -47,7 +48,8 @@ struct Measurements {
   std::vector<OtherNetwork> others;
 
   std::string model;  // File name.
-  StepTimes steps;
+  StepTimes steps;                                          // Of the walk.
+  std::vector<std::pair<std::string, StepTimes>> hard_steps;  // Of other motions, by name.
   std::vector<CrowdTime> crowds, int8_crowds;    // With the model unchanged, and in int8.
   size_t model_bytes = 0, int8_model_bytes = 0;  // Size of the model file, in float and in int8.
   double character_bytes = 0;                    // 0 if the allocator does not report it.

@@ -7,7 +7,6 @@
 #include <sys/resource.h>
 
 #include "style/stylizer.h"
-#include "walker/walker.h"
 
 namespace panache::bench {
 namespace {
@@ -30,7 +29,7 @@ int64_t interruptions() noexcept {
   return usage.ru_nivcsw;
 }
 
-// A Stylizer and the walk that it steps through.
+// A Stylizer and the motion that it steps through.
 class Character {
  public:
   Character(const std::shared_ptr<const Model>& model, const Clip& walk, const Rig& rig)
@@ -86,16 +85,6 @@ class StageTimes final : public StageClock {
 };
 
 }  // namespace
-
-Result<Clip> make_walk(const std::string& walker_model) {
-  auto walker = WalkerModel::load(walker_model);
-  if (!walker) return walker.error();
-  WalkClipOptions options;
-  options.seconds = 60;
-  options.fps = 60;
-  options.turn = 0.35f;
-  return walk_clip(*walker, options);
-}
 
 StepTimes time_steps(const std::shared_ptr<const Model>& model, const Clip& walk, int64_t steps,
                      const ProgressCall& progress) {

@@ -82,7 +82,13 @@ std::string steps_table(const Measurements& m) {
       {{"one step, " + m.model + ", int8", "p50", "p99", "p99.9", "worst", "cold"},
        {grouped(steps.steps.count()) + " steps", quantile(0.5), quantile(0.99), quantile(0.999),
         us(static_cast<double>(steps.steps.worst()) / 1e3), us(steps.cold / 1e3)}});
-  text += "other programs took the core " + grouped(steps.interruptions) +
+  const auto over_networks = [](const bench::StepTimes& of) { return fixed(of.whole / of.networks, 1); };
+  text += "a step of this walk takes " + over_networks(steps) + " times its networks";
+  for (const auto& [name, hard] : m.hard_steps) {
+    text += "; of a " + name + " on 84 joints " + us(hard.steps.quantile(0.5) / 1e3) + ", " +
+            over_networks(hard) + " times";
+  }
+  text += "\nother programs took the core " + grouped(steps.interruptions) +
           (steps.interruptions == 1 ? " time" : " times") +
           " meanwhile; each makes one step longer\n";
   std::vector<std::vector<std::string>> rows = {{"its parts", "p50", "share"}};
@@ -183,6 +189,8 @@ Json to_json(const Measurements& m, const std::vector<SystemTime>& systems) {
     at_60hz_int8 = characters_at_60hz(int8);
   }
   const bench::Histogram& steps = m.steps.steps;
+  Json over_networks = {{"walk", m.steps.whole / m.steps.networks}};
+  for (const auto& [name, hard] : m.hard_steps) over_networks[name] = hard.whole / hard.networks;
   Json frames = Json::object(), memory = Json::object();
   for (const SystemTime& system : systems) {
     frames[system.name] = system.frame_us;
@@ -218,6 +226,7 @@ Json to_json(const Measurements& m, const std::vector<SystemTime>& systems) {
           {"steps", steps.count()},
           {"interruptions", m.steps.interruptions},
           {"step_cold_us", m.steps.cold / 1e3},
+          {"step_over_networks", over_networks},
           {"stages_us", stages},
           {"crowds", crowds},
           {"cold_us", cold},
