@@ -196,12 +196,14 @@ int find_person(const LearnVerb& verb) {
     text += "  " + names[a] + " " + fixed(number, 2) + "\n";
   }
   if (verb.json) {
-    print(dump(Json{{"person", numbers}, {"seconds", found.seconds}, {"explained", found.explained}}));
+    print(dump(
+        Json{{"person", numbers}, {"seconds", found.seconds}, {"explained", found.explained}}));
     return kDone;
   }
   print("from " + fixed(found.seconds, 1) + " s, in deviations from the mean of people:\n" + text +
         "  they carry " + fixed(100 * std::max(found.explained, 0.0), 0) +
-        " % of what differs from others\nuse it: panache stylize walk.bvh --person=" + option + "\n");
+        " % of what differs from others\nuse it: panache stylize walk.bvh --person=" + option +
+        "\n");
   return kDone;
 }
 
@@ -252,10 +254,9 @@ void add_learn(CLI::App& app, int& exit_code) {
                        "style: how other people do it takes the neutral one's place")
       ->required()
       ->type_name("");
-  CLI::Option* name =
-      add_option(*verb, "--name NAME", options->name,
-                 "Name of the style, as in stylize --style NAME=1")
-          ->required();
+  CLI::Option* name = add_option(*verb, "--name NAME", options->name,
+                                 "Name of the style, as in stylize --style NAME=1")
+                          ->required();
   CLI::Option* into = add_option(*verb, "--into MODEL", options->model,
                                  "Model to add it to (.safetensors); if it does not\n"
                                  "exist, it starts as a copy of the shipped one")
@@ -276,7 +277,8 @@ void add_learn(CLI::App& app, int& exit_code) {
         name->required(false);
         into->required(false);
       },
-      "CLIPS are neutral motion of one person: print the\nnumbers of the person, for stylize --person");
+      "CLIPS are neutral motion of one person: print the\nnumbers of the person, for stylize "
+      "--person");
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->add_flag("--force", options->force, "Replace a style of the same name");

@@ -48,10 +48,11 @@ PersonNumbers numbers_of(const std::string& text, const Model& model) {
 }  // namespace
 
 void add_person_options(CLI::App& verb, PersonFlags& flags) {
-  add_option(verb, "--person SEED", flags.person,
-             "Move as another person, in addition to the styles: a\nnumber or a word, each is another "
-             "one. random: another\none for each file. Or the numbers that panache learn\n--person "
-             "prints");
+  add_option(
+      verb, "--person SEED", flags.person,
+      "Move as another person, in addition to the styles: a\nnumber or a word, each is another "
+      "one. random: another\none for each file. Or the numbers that panache learn\n--person "
+      "prints");
   add_option(verb, "--seed NUMBER", flags.seed,
              "Other random persons; equal seeds give equal persons.\nDefault: 0");
   add_option(verb, "--variety AMOUNT", flags.variety,
@@ -79,7 +80,8 @@ std::string PersonWish::describe(const std::string& file) const {
 
 std::optional<PersonWish> read_person_options(const PersonFlags& flags, const Model& model) {
   if (!flags.given()) {
-    if (flags.seed) throw Failure{{"--seed: is for random persons; add --person random"}, kBadUsage};
+    if (flags.seed)
+      throw Failure{{"--seed: is for random persons; add --person random"}, kBadUsage};
     if (flags.variety) throw Failure{{"--variety: nobody is asked for; add --person"}, kBadUsage};
     return std::nullopt;
   }

@@ -26,9 +26,9 @@ void add_person_options(CLI::App& verb, PersonFlags& flags);
 
 // The persons to put on files.
 struct PersonWish {
-  std::string given;                  // As typed: "7", "mara", "random" or "0.5,-1,...".
+  std::string given;                     // As typed: "7", "mara", "random" or "0.5,-1,...".
   std::optional<PersonNumbers> numbers;  // If these were given.
-  std::optional<uint32_t> seed;       // Nothing: another one for each file.
+  std::optional<uint32_t> seed;          // Nothing: another one for each file.
   uint32_t random_seed = 0;
   float variety = 1;
 
@@ -40,8 +40,8 @@ struct PersonWish {
   std::string describe(const std::string& file) const;
 };
 
-// The wish, if any. Throws Failure: if the model has no persons, or if an option that needs --person
-// is alone.
+// The wish, if any. Throws Failure: if the model has no persons, or if an option that needs
+// --person is alone.
 std::optional<PersonWish> read_person_options(const PersonFlags& flags, const Model& model);
 
 }  // namespace panache::cli

@@ -253,8 +253,8 @@ void stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& opt
 
 // The requested strengths, from the options and the table.
 std::vector<StrengthWish> collect_wishes(const StylizeOptions& options, const Model& model) {
-  const bool asks_for_more = options.removal.given() || options.person.given() ||
-                             options.shape.shape.energy != 1;
+  const bool asks_for_more =
+      options.removal.given() || options.person.given() || options.shape.shape.energy != 1;
   if (options.styles.empty() && options.strengths.empty() && !asks_for_more) {
     throw Failure{missing_style(options.batch.inputs, model), kBadUsage};
   }

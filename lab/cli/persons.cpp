@@ -53,10 +53,11 @@ void print_others(const std::string& what, const std::vector<OodRow>& rows) {
     more += sliding[i] / double(rows.size());
     cm += distance[i] / double(rows.size());
   }
-  print(what + ": " + plural(rows.size(), "clip") + ", jerk / input " + fixed(quantile(jerk, 0.5), 2) +
-        ", 90 % " + fixed(quantile(jerk, 0.9), 2) + "; beyond limits " + fixed(100 * limits, 2) +
-        " % of frames; jumps " + std::to_string(jumps) + "; sliding " + fixed(100 * more, 1) +
-        " % more; " + fixed(cm, 1) + " cm from the input\n");
+  print(what + ": " + plural(rows.size(), "clip") + ", jerk / input " +
+        fixed(quantile(jerk, 0.5), 2) + ", 90 % " + fixed(quantile(jerk, 0.9), 2) +
+        "; beyond limits " + fixed(100 * limits, 2) + " % of frames; jumps " +
+        std::to_string(jumps) + "; sliding " + fixed(100 * more, 1) + " % more; " + fixed(cm, 1) +
+        " cm from the input\n");
 }
 
 int measure(const Options& options) {
@@ -108,7 +109,8 @@ int measure(const Options& options) {
 }  // namespace
 
 void add_persons(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("persons", "Measure the persons of a model beside real people");
+  CLI::App* verb =
+      app.add_subcommand("persons", "Measure the persons of a model beside real people");
   auto options = std::make_shared<Options>();
   verb->add_option("MANIFEST", options->manifests,
                    "Manifests with neutral walks of many people on one skeleton")
@@ -118,8 +120,7 @@ void add_persons(CLI::App& app, int& exit_code) {
              "Neutral walk of somebody outside the training; two or more")
       ->required()
       ->allow_extra_args(false);
-  add_option(*verb, "--other PATH", options->others,
-             "Other motion: a file, a folder or a manifest")
+  add_option(*verb, "--other PATH", options->others, "Other motion: a file, a folder or a manifest")
       ->allow_extra_args(false);
   add_option(*verb, "--bank FILE", options->bank,
              "Bank of neutral motion: how well the numbers of real people\nare found again");

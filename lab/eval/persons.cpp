@@ -66,9 +66,7 @@ PersonSpread spread_of(const std::vector<double>& distances) {
 }
 
 // Plain walks: other ones differ by more than the person.
-bool is_walk(const Take& take) {
-  return take.row.content == "walk" && take.frames() >= kMinFrames;
-}
+bool is_walk(const Take& take) { return take.row.content == "walk" && take.frames() >= kMinFrames; }
 
 std::vector<float> numbers_of(const HumanPositions& pose) {
   std::vector<float> out;
@@ -210,7 +208,8 @@ Result<SeedPersons> PersonsMeasure::measure(const std::shared_ptr<const Model>& 
       }
     }
     add_distances(poses, distances);
-    right += told(training, labels, test, expected, shifts, unchanged[static_cast<size_t>(w)]) / walks;
+    right +=
+        told(training, labels, test, expected, shifts, unchanged[static_cast<size_t>(w)]) / walks;
     // From the mean person, who is the unchanged input.
     const HumanPositions middle = mean_pose(walks_[w].take);
     for (const HumanPositions& pose : poses) {

@@ -111,9 +111,8 @@ double mean_over(const Seen& seen, const std::function<double(const HumanPositio
 }
 double deviation_over(const Seen& seen, const std::function<double(const HumanPositions&)>& of) {
   const double mean = mean_over(seen, of);
-  return std::sqrt(mean_over(seen, [&](const HumanPositions& body) {
-    return (of(body) - mean) * (of(body) - mean);
-  }));
+  return std::sqrt(mean_over(
+      seen, [&](const HumanPositions& body) { return (of(body) - mean) * (of(body) - mean); }));
 }
 double ahead(const HumanPositions& body, HumanJoint joint) { return double{body[index(joint)].z}; }
 double height(const HumanPositions& body, HumanJoint joint) { return double{body[index(joint)].y}; }
@@ -342,8 +341,8 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
       wide.matmul(avh.slice(0, 0, units).t()) / as.slice(0, 0, units);  // [activations][units]
   const torch::Tensor reduced = centred.matmul(reduce);
   // Least squares of the answers on the units.
-  const torch::Tensor exact = centred.matmul(
-      axis_heads.permute({1, 0, 2}).reshape({activations, axes * outputs}));
+  const torch::Tensor exact =
+      centred.matmul(axis_heads.permute({1, 0, 2}).reshape({activations, axes * outputs}));
   const torch::Tensor fit =
       torch::linalg_solve(reduced.t().matmul(reduced) + 1e-9 * torch::eye(units, torch::kFloat64),
                           reduced.t().matmul(exact));  // [units][axes * outputs]
@@ -361,9 +360,9 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
                                (all.square().sum() / double(count - 1));
   for (int64_t a = 0; a < axes; ++a) {
     const bool named = axes == static_cast<int64_t>(kVisible.size());
-    out.axes.push_back({named ? kVisible[static_cast<size_t>(a)].name
-                              : "axis " + std::to_string(a + 1),
-                        named ? follows[a].item<double>() : 0, shares[a].item<double>()});
+    out.axes.push_back(
+        {named ? kVisible[static_cast<size_t>(a)].name : "axis " + std::to_string(a + 1),
+         named ? follows[a].item<double>() : 0, shares[a].item<double>()});
   }
   for (int64_t p = 0; p < count; ++p) {
     const PersonHead& person = fitted[static_cast<size_t>(p)];
@@ -379,7 +378,8 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
 
 TensorFile with_persons(const TensorFile& model, const FittedPersons& persons, double gain) {
   TensorFile out = model;
-  std::erase_if(out.tensors, [](const auto& tensor) { return tensor.first.starts_with("person."); });
+  std::erase_if(out.tensors,
+                [](const auto& tensor) { return tensor.first.starts_with("person."); });
   TensorFile part;
   part.tensors = persons.tensors;
   for (float& value : part.tensors["person.head.weight"].values) {

@@ -14,7 +14,7 @@ namespace panache {
 namespace {
 
 constexpr double kWorstPersonMatch = 0.6;  // As in learn_style.cpp.
-constexpr int kMaxTake = 300;        // Frames.
+constexpr int kMaxTake = 300;              // Frames.
 constexpr size_t kMaxSamples = 1200;
 // The cost of a squared number of the person, in the variance of an axis' answers: what differs
 // from one take to the next.
@@ -40,8 +40,8 @@ Take middle_of_person(const Take& take) {
 }
 
 // A change and a tempo in units that count alike.
-std::array<double, StyleDelta::kSize + 1> in_units(const Model& model, std::span<const float> change,
-                                                  double log_rate) {
+std::array<double, StyleDelta::kSize + 1> in_units(const Model& model,
+                                                   std::span<const float> change, double log_rate) {
   std::array<double, StyleDelta::kSize + 1> out;
   for (size_t i = 0; i < StyleDelta::kSize; ++i) {
     out[i] = double{change[i]} / double{model.output_scale()[i]};
@@ -85,7 +85,8 @@ Result<LearntPerson> learn_person(const std::shared_ptr<const Model>& model,
     }
   }
   if (pairings.empty()) {
-    return Error{"no take shows what other people do, too; give two seconds or more of a plain walk"};
+    return Error{
+        "no take shows what other people do, too; give two seconds or more of a plain walk"};
   }
   const SampleSet set(all, pairings, {"person"}, model->recipe(), false);
   const size_t axes = model->persons()->axes(), count = set.samples().size();

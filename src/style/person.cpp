@@ -14,9 +14,8 @@ constexpr const char* kHead = "person.head";
 constexpr const char* kNames = "person_axes";
 
 // The 95 % quantile of the squared length of standard normal vectors (chi-squared), by their size.
-constexpr std::array<float, kMaxPersonAxes> kNearly = {3.841f,  5.991f,  7.815f,  9.488f,
-                                                       11.070f, 12.592f, 14.067f, 15.507f,
-                                                       16.919f, 18.307f};
+constexpr std::array<float, kMaxPersonAxes> kNearly = {3.841f,  5.991f,  7.815f,  9.488f,  11.070f,
+                                                       12.592f, 14.067f, 15.507f, 16.919f, 18.307f};
 
 std::vector<std::string> lines_of(std::string_view text) {
   std::vector<std::string> lines;
@@ -115,8 +114,9 @@ uint32_t person_seed(std::string_view word) noexcept {
 
 Result<void> check_has_persons(const Model& model) {
   if (model.persons()) return {};
-  return Error{"the model has no persons; expected one with tensors 'person.*', such as the one that "
-               "is shipped"};
+  return Error{
+      "the model has no persons; expected one with tensors 'person.*', such as the one that "
+      "is shipped"};
 }
 
 }  // namespace panache

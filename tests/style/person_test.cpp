@@ -135,8 +135,8 @@ TEST_F(Persons, ease_in_and_out) {
   const auto apart = [&](int f) {
     double sum = 0;
     for (size_t j = 0; j < clip_.joints(); ++j) {
-      sum += double{length(log_rotation(out.pose(f).rotations[j] *
-                                        conjugate(clip_.pose(f).rotations[j])))};
+      sum += double{
+          length(log_rotation(out.pose(f).rotations[j] * conjugate(clip_.pose(f).rotations[j])))};
     }
     return sum;
   };
@@ -280,9 +280,10 @@ TEST(DrawPerson, draws_neighbouring_seeds_independently) {
 TEST(PersonFiles, are_rejected_with_what_is_wrong) {
   TensorFile file = person_file();
   file.tensors["person.head.bias"].values[3] = 1;
-  EXPECT_EQ(failure(file),
-            "m.safetensors: tensor 'person.head.bias' must be zero, so that the mean person changes "
-            "nothing");
+  EXPECT_EQ(
+      failure(file),
+      "m.safetensors: tensor 'person.head.bias' must be zero, so that the mean person changes "
+      "nothing");
   file = person_file();
   file.metadata["person_axes"] = "";
   EXPECT_NE(failure(file).find("metadata 'person_axes' has 0 lines; expected 1 to 10"),
