@@ -1,5 +1,6 @@
 // panache learn: a new style from a few seconds of motion.
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -8,6 +9,7 @@
 #include "base/file.h"
 #include "base/stopwatch.h"
 #include "input.h"
+#include "learn/learn_person.h"
 #include "learn/learn_style.h"
 #include "learn/style_file.h"
 #include "messages.h"
@@ -24,7 +26,7 @@ struct LearnVerb {
   std::string name, model, description, source, licence;
   ReadOptions read;
   RigFlags rig;
-  bool pose = false, force = false, json = false;
+  bool pose = false, person = false, force = false, json = false;
 };
 
 // A motion of a file and its rig.
@@ -169,7 +171,44 @@ Result<void> check_usage(const LearnVerb& verb) {
   return check_rig_flags(verb.rig);
 }
 
+// The numbers of the person who moves in the clips.
+int find_person(const LearnVerb& verb) {
+  need(check_read_options(verb.read), kBadUsage);
+  need(check_rig_flags(verb.rig), kBadUsage);
+  const std::string path = need(find_model(verb.model));
+  const auto model = need(Model::load(path));
+  need(check_has_persons(*model));
+  const RigOptions rig = need(read_rig_options(verb.rig));
+  std::vector<Take> takes;
+  for (const std::string& clip : verb.clips) {
+    const OpenClip opened = open(clip, verb.read, rig, false);
+    takes.push_back(make_take(opened.clip, opened.rig, PoseLayout::positions));
+  }
+  const auto bank = need(NeutralBank::load(need(find_shipped(kNeutralBank))));
+  const LearntPerson found = need(learn_person(model, *bank, takes));
+  const std::vector<std::string>& names = model->persons()->names();
+  Json numbers = Json::object();
+  std::string option, text;
+  for (size_t a = 0; a < names.size(); ++a) {
+    const double number{found.numbers[a]};
+    numbers[names[a]] = rounded(number);
+    option += (a ? "," : "") + fixed(number, 2);
+    text += "  " + names[a] + " " + fixed(number, 2) + "\n";
+  }
+  if (verb.json) {
+    print(dump(
+        Json{{"person", numbers}, {"seconds", found.seconds}, {"explained", found.explained}}));
+    return kDone;
+  }
+  print("from " + fixed(found.seconds, 1) + " s, in deviations from the mean of people:\n" + text +
+        "  they carry " + fixed(100 * std::max(found.explained, 0.0), 0) +
+        " % of what differs from others\nuse it: panache stylize walk.bvh --person=" + option +
+        "\n");
+  return kDone;
+}
+
 int learn(const LearnVerb& verb) {
+  if (verb.person) return find_person(verb);
   need(check_usage(verb), kBadUsage);
   // A new model begins as a copy of the shipped one.
   std::error_code unknown;
@@ -215,12 +254,13 @@ void add_learn(CLI::App& app, int& exit_code) {
                        "style: how other people do it takes the neutral one's place")
       ->required()
       ->type_name("");
-  add_option(*verb, "--name NAME", options->name, "Name of the style, as in stylize --style NAME=1")
-      ->required();
-  add_option(*verb, "--into MODEL", options->model,
-             "Model to add it to (.safetensors); if it does not\n"
-             "exist, it starts as a copy of the shipped one")
-      ->required();
+  CLI::Option* name = add_option(*verb, "--name NAME", options->name,
+                                 "Name of the style, as in stylize --style NAME=1")
+                          ->required();
+  CLI::Option* into = add_option(*verb, "--into MODEL", options->model,
+                                 "Model to add it to (.safetensors); if it does not\n"
+                                 "exist, it starts as a copy of the shipped one")
+                          ->required();
   add_option(*verb, "--description TEXT", options->description,
              "Description, shown by panache styles");
   add_option(*verb, "--source TEXT", options->source,
@@ -230,6 +270,15 @@ void add_learn(CLI::App& app, int& exit_code) {
                  "CLIPS are a neutral pose and a posed one, or only the\n"
                  "latter: of a motion its first frame. The style changes\n"
                  "all motion by their difference");
+  verb->add_flag_callback(
+      "--person",
+      [options, name, into] {
+        options->person = true;
+        name->required(false);
+        into->required(false);
+      },
+      "CLIPS are neutral motion of one person: print the\nnumbers of the person, for stylize "
+      "--person");
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->add_flag("--force", options->force, "Replace a style of the same name");
@@ -240,6 +289,7 @@ void add_learn(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  panache learn walk.bvh dizzy.bvh --name dizzy --into mine.safetensors\n"
       "  panache learn dizzy.bvh --name dizzy --into mine.safetensors\n"
+      "  panache learn --person anna-1.bvh anna-2.bvh\n"
       "  panache stylize run.bvh --model mine.safetensors --style dizzy=1 -o out.bvh");
   verb->callback([options, &exit_code] { exit_code = learn(*options); });
 }

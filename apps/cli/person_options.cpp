@@ -6,6 +6,7 @@
 
 #include "clip/text_cursor.h"
 #include "style/person.h"
+#include "strengths.h"
 #include "usage_error.h"
 
 namespace panache::cli {
@@ -21,12 +22,37 @@ uint32_t seed_of(const std::string& text) {
   return person_seed(text);
 }
 
+// Numbers with commas between them, one for each axis.
+PersonNumbers numbers_of(const std::string& text, const Model& model) {
+  const std::vector<std::string>& names = model.persons()->names();
+  PersonNumbers out{};
+  size_t count = 0;
+  for (size_t at = 0; at <= text.size(); ++count) {
+    const size_t end = std::min(text.find(',', at), text.size());
+    const std::optional<double> number = parse_number(text.substr(at, end - at));
+    if (!number || count >= names.size()) {
+      count = names.size() + 1;
+      break;
+    }
+    out[count] = std::clamp(static_cast<float>(*number), -kMaxPerson, kMaxPerson);
+    at = end + 1;
+  }
+  if (count == names.size()) return out;
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  throw Failure{{"--person " + panache::quoted(text) + ": expected " +
+                 std::to_string(names.size()) + " numbers (" + list + "), a seed or a word"},
+                kBadUsage};
+}
+
 }  // namespace
 
 void add_person_options(CLI::App& verb, PersonFlags& flags) {
-  add_option(verb, "--person SEED", flags.person,
-             "Move as another person, in addition to the styles: a\nnumber or a word, each is another "
-             "one. random: another\none for each file");
+  add_option(
+      verb, "--person SEED", flags.person,
+      "Move as another person, in addition to the styles: a\nnumber or a word, each is another "
+      "one. random: another\none for each file. Or the numbers that panache learn\n--person "
+      "prints");
   add_option(verb, "--seed NUMBER", flags.seed,
              "Other random persons; equal seeds give equal persons.\nDefault: 0");
   add_option(verb, "--variety AMOUNT", flags.variety,
@@ -41,9 +67,21 @@ uint32_t PersonWish::seed_for(const std::string& file) const {
   return person_seed(std::to_string(random_seed) + ":" + path);
 }
 
+PersonNumbers PersonWish::numbers_for(const std::string& file, const Model& model) const {
+  if (!numbers) return person_of_seed(model, seed_for(file), variety);
+  PersonNumbers out = *numbers;
+  for (float& number : out) number *= variety;
+  return out;
+}
+
+std::string PersonWish::describe(const std::string& file) const {
+  return "person " + (numbers ? given : std::to_string(seed_for(file)));
+}
+
 std::optional<PersonWish> read_person_options(const PersonFlags& flags, const Model& model) {
   if (!flags.given()) {
-    if (flags.seed) throw Failure{{"--seed: is for random persons; add --person random"}, kBadUsage};
+    if (flags.seed)
+      throw Failure{{"--seed: is for random persons; add --person random"}, kBadUsage};
     if (flags.variety) throw Failure{{"--variety: nobody is asked for; add --person"}, kBadUsage};
     return std::nullopt;
   }
@@ -60,7 +98,11 @@ std::optional<PersonWish> read_person_options(const PersonFlags& flags, const Mo
   wish.given = flags.person;
   wish.variety = flags.variety.value_or(1);
   wish.random_seed = flags.seed.value_or(0);
-  if (!random) wish.seed = seed_of(flags.person);
+  if (flags.person.find(',') != std::string::npos) {
+    wish.numbers = numbers_of(flags.person, model);
+  } else if (!random) {
+    wish.seed = seed_of(flags.person);
+  }
   return wish;
 }
 

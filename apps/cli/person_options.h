@@ -9,11 +9,13 @@
 
 #include "messages.h"
 #include "style/model.h"
+#include "style/person.h"
 
 namespace panache::cli {
 
 struct PersonFlags {
-  std::string person;        // A number, a word or "random", as typed; empty: nobody.
+  // A number, a word, "random" or numbers with commas, as typed; empty: nobody.
+  std::string person;
   std::optional<uint32_t> seed;  // For "random".
   std::optional<float> variety;
 
@@ -24,17 +26,22 @@ void add_person_options(CLI::App& verb, PersonFlags& flags);
 
 // The persons to put on files.
 struct PersonWish {
-  std::string given;                  // As typed: "7", "mara" or "random".
-  std::optional<uint32_t> seed;       // Nothing: another one for each file.
+  std::string given;                     // As typed: "7", "mara", "random" or "0.5,-1,...".
+  std::optional<PersonNumbers> numbers;  // If these were given.
+  std::optional<uint32_t> seed;          // Nothing: another one for each file.
   uint32_t random_seed = 0;
   float variety = 1;
 
-  // The person's seed for a file.
+  // The person's seed for a file, without numbers.
   uint32_t seed_for(const std::string& file) const;
+  // The person's numbers for a file.
+  PersonNumbers numbers_for(const std::string& file, const Model& model) const;
+  // "person 7"
+  std::string describe(const std::string& file) const;
 };
 
-// The wish, if any. Throws Failure: if the model has no persons, or if an option that needs --person
-// is alone.
+// The wish, if any. Throws Failure: if the model has no persons, or if an option that needs
+// --person is alone.
 std::optional<PersonWish> read_person_options(const PersonFlags& flags, const Model& model);
 
 }  // namespace panache::cli

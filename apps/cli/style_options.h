@@ -1,7 +1,7 @@
 #pragma once
 // Options shared by stylize and live: how much of a style's effects to use (--posture, --dynamics,
-// --timing, --region, --contacts and --gestures), the energy of the input (--energy), and the style to remove from the input (--remove, --neutral
-// and --remover).
+// --timing, --region, --contacts and --gestures), the energy of the input (--energy), and the style
+// to remove from the input (--remove, --neutral and --remover).
 
 #include <optional>
 #include <string>

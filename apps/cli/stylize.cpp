@@ -70,14 +70,16 @@ Json tracks_json(const std::vector<StrengthTrack>& tracks, const Wanted& wanted)
   return styles;
 }
 
-// "person 7"
-std::string describe_person(const std::optional<PersonWish>& person, const std::string& input) {
-  return person ? "person " + std::to_string(person->seed_for(input)) : "";
-}
-
-Json person_json(const std::optional<PersonWish>& person, const std::string& input) {
-  if (!person) return {};
-  return {{"seed", person->seed_for(input)}, {"variety", rounded(double{person->variety})}};
+Json person_json(const Wanted& wanted, const std::string& input) {
+  if (!wanted.person) return {};
+  const PersonWish& person = *wanted.person;
+  Json numbers = Json::object();
+  const PersonNumbers own = person.numbers_for(input, *wanted.model);
+  const std::vector<std::string>& names = wanted.model->persons()->names();
+  for (size_t a = 0; a < names.size(); ++a) numbers[names[a]] = rounded(double{own[a]});
+  return {{"seed", person.numbers ? Json() : Json(person.seed_for(input))},
+          {"variety", rounded(double{person.variety})},
+          {"numbers", numbers}};
 }
 
 // "walk (old 1)", "walk (old off, limping 1 mirrored, person 7)".
@@ -89,8 +91,7 @@ std::string result_name(const std::string& title, const std::string& input, cons
     styles += (styles.empty() ? "" : ", ") + style + " " + describe(wish) +
               describe_side(side_of(wanted.how.stylizer.sides, wish.track.style));
   }
-  const std::string person = describe_person(wanted.person, input);
-  if (!person.empty()) styles += (styles.empty() ? "" : ", ") + person;
+  if (wanted.person) styles += (styles.empty() ? "" : ", ") + wanted.person->describe(input);
   const double energy{wanted.how.stylizer.shape.energy};
   if (energy != 1) styles += (styles.empty() ? "" : ", ") + ("energy " + fixed(energy, 2));
   return title + " (" + styles + ")";
@@ -143,8 +144,7 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
       wanted.wishes, rig.first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
   RestyleOptions how = wanted.how;
   if (wanted.person) {
-    how.stylizer.person = person_of_seed(*wanted.model, wanted.person->seed_for(file.input),
-                                         wanted.person->variety);
+    how.stylizer.person = wanted.person->numbers_for(file.input, *wanted.model);
   }
   if (figures.size() > 1) {  // They keep the same time.
     how.timing = false;
@@ -176,12 +176,12 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
                         {"seconds", restyled->clip.duration()},
                         {"removed", removed_json(removes ? wanted.removal : std::nullopt)},
                         {"styles", tracks_json(tracks, wanted)},
-                        {"person", person_json(wanted.person, file.input)},
+                        {"person", person_json(wanted, file.input)},
                         {"gate", to_json(gate)},
                         {"facts", to_json(facts)}});
   file.facts.push_back(place + ": " + describe(facts));
   if (wanted.person) {
-    file.facts.push_back(place + ": moves as " + describe_person(wanted.person, file.input));
+    file.facts.push_back(place + ": moves as " + wanted.person->describe(file.input));
   }
   if (wanted.verbose) file.details.push_back(place + ": " + describe(gate));
   if (gate.eased > 0.5) file.notes.push_back(place + ": " + describe_eased(gate));
@@ -253,8 +253,8 @@ void stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& opt
 
 // The requested strengths, from the options and the table.
 std::vector<StrengthWish> collect_wishes(const StylizeOptions& options, const Model& model) {
-  const bool asks_for_more = options.removal.given() || options.person.given() ||
-                             options.shape.shape.energy != 1;
+  const bool asks_for_more =
+      options.removal.given() || options.person.given() || options.shape.shape.energy != 1;
   if (options.styles.empty() && options.strengths.empty() && !asks_for_more) {
     throw Failure{missing_style(options.batch.inputs, model), kBadUsage};
   }

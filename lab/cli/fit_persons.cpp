@@ -47,8 +47,7 @@ int fit(const Options& options) {
   for (const std::string& path : options.models) models.push_back(need(read_tensors(path)));
   const auto bank = need(NeutralBank::load(options.bank));
   const std::vector<Take> takes = need(load_takes(data.rows, PoseLayout::positions));
-  const FittedPersons persons =
-      need(fit_persons(models.front(), *bank, takes, options.settings));
+  const FittedPersons persons = need(fit_persons(models.front(), *bank, takes, options.settings));
   double seconds = 0;
   for (const auto& [person, own] : persons.seconds) seconds += own;
   print(std::to_string(persons.people.size()) + " people, " + fixed(seconds, 0) +

@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> manifests, walks, others;
-  std::string model;
+  std::string model, bank;
   int seeds = 20, other_seeds = 5;
   float variety = 1;
 };
@@ -53,10 +53,11 @@ void print_others(const std::string& what, const std::vector<OodRow>& rows) {
     more += sliding[i] / double(rows.size());
     cm += distance[i] / double(rows.size());
   }
-  print(what + ": " + plural(rows.size(), "clip") + ", jerk / input " + fixed(quantile(jerk, 0.5), 2) +
-        ", 90 % " + fixed(quantile(jerk, 0.9), 2) + "; beyond limits " + fixed(100 * limits, 2) +
-        " % of frames; jumps " + std::to_string(jumps) + "; sliding " + fixed(100 * more, 1) +
-        " % more; " + fixed(cm, 1) + " cm from the input\n");
+  print(what + ": " + plural(rows.size(), "clip") + ", jerk / input " +
+        fixed(quantile(jerk, 0.5), 2) + ", 90 % " + fixed(quantile(jerk, 0.9), 2) +
+        "; beyond limits " + fixed(100 * limits, 2) + " % of frames; jumps " +
+        std::to_string(jumps) + "; sliding " + fixed(100 * more, 1) + " % more; " + fixed(cm, 1) +
+        " cm from the input\n");
 }
 
 int measure(const Options& options) {
@@ -74,6 +75,16 @@ int measure(const Options& options) {
   print("seeds: " + std::to_string(seeds.seeds) + " on " + plural(seeds.walks, "walk") + ", " +
         describe(seeds.spread) + "; told " + fixed(seeds.told, 3) + "; outside " +
         fixed(seeds.outside, 3) + "\n");
+  if (!options.bank.empty()) {
+    size_t people = 0;
+    const auto bank = need(NeutralBank::load(options.bank));
+    const std::vector<double> agree = need(measure_retelling(model, *bank, takes, people));
+    std::string text = "numbers from two walks of " + plural(people, "person") + " correlate:";
+    for (size_t a = 0; a < agree.size(); ++a) {
+      text += (a ? ", " : " ") + model->persons()->names()[a] + " " + fixed(agree[a], 2);
+    }
+    print(text + "\n");
+  }
   if (options.others.empty()) return kDone;
   std::vector<std::string> files;
   for (const std::string& path : options.others) {
@@ -98,7 +109,8 @@ int measure(const Options& options) {
 }  // namespace
 
 void add_persons(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("persons", "Measure the persons of a model beside real people");
+  CLI::App* verb =
+      app.add_subcommand("persons", "Measure the persons of a model beside real people");
   auto options = std::make_shared<Options>();
   verb->add_option("MANIFEST", options->manifests,
                    "Manifests with neutral walks of many people on one skeleton")
@@ -108,9 +120,10 @@ void add_persons(CLI::App& app, int& exit_code) {
              "Neutral walk of somebody outside the training; two or more")
       ->required()
       ->allow_extra_args(false);
-  add_option(*verb, "--other PATH", options->others,
-             "Other motion: a file, a folder or a manifest")
+  add_option(*verb, "--other PATH", options->others, "Other motion: a file, a folder or a manifest")
       ->allow_extra_args(false);
+  add_option(*verb, "--bank FILE", options->bank,
+             "Bank of neutral motion: how well the numbers of real people\nare found again");
   add_option(*verb, "--seeds NUMBER", options->seeds, "Persons on the walks; default: 20")
       ->check(CLI::Range(2, 1000));
   add_option(*verb, "--variety AMOUNT", options->variety, "See panache stylize; default: 1")

@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "eval/discriminant.h"
+#include "learn/learn_person.h"
 #include "style/restyle.h"
 #include "train/persons.h"
 
@@ -65,9 +66,7 @@ PersonSpread spread_of(const std::vector<double>& distances) {
 }
 
 // Plain walks: other ones differ by more than the person.
-bool is_walk(const Take& take) {
-  return take.row.content == "walk" && take.frames() >= kMinFrames;
-}
+bool is_walk(const Take& take) { return take.row.content == "walk" && take.frames() >= kMinFrames; }
 
 std::vector<float> numbers_of(const HumanPositions& pose) {
   std::vector<float> out;
@@ -209,7 +208,8 @@ Result<SeedPersons> PersonsMeasure::measure(const std::shared_ptr<const Model>& 
       }
     }
     add_distances(poses, distances);
-    right += told(training, labels, test, expected, shifts, unchanged[static_cast<size_t>(w)]) / walks;
+    right +=
+        told(training, labels, test, expected, shifts, unchanged[static_cast<size_t>(w)]) / walks;
     // From the mean person, who is the unchanged input.
     const HumanPositions middle = mean_pose(walks_[w].take);
     for (const HumanPositions& pose : poses) {
@@ -229,6 +229,36 @@ Result<SeedPersons> PersonsMeasure::measure(const std::shared_ptr<const Model>& 
   out.spread = spread_of(distances);
   out.told = right;
   out.outside = outside;
+  return out;
+}
+
+Result<std::vector<double>> measure_retelling(const std::shared_ptr<const Model>& model,
+                                              const NeutralBank& bank,
+                                              const std::vector<Take>& neutral, size_t& people) {
+  if (Result<void> good = check_has_persons(*model); !good) return good.error();
+  std::map<std::string, std::vector<const Take*>> by_person;
+  for (const Take& take : neutral) {
+    if (take.row.neutral && is_walk(take)) by_person[person_of(take)].push_back(&take);
+  }
+  std::vector<PersonNumbers> first, last;
+  for (const auto& [person, takes] : by_person) {
+    if (takes.size() < 2) continue;
+    const auto one = learn_person(model, bank, {takes.front(), 1});
+    const auto other = learn_person(model, bank, {takes.back(), 1});
+    if (!one || !other) continue;
+    first.push_back(one->numbers), last.push_back(other->numbers);
+  }
+  people = first.size();
+  std::vector<double> out;
+  for (size_t a = 0; a < model->persons()->axes(); ++a) {
+    double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+    const double count = static_cast<double>(first.size());
+    for (size_t p = 0; p < first.size(); ++p) {
+      const double u{first[p][a]}, v{last[p][a]};
+      x += u / count, y += v / count, xx += u * u / count, yy += v * v / count, xy += u * v / count;
+    }
+    out.push_back((xy - x * y) / std::sqrt((xx - x * x) * (yy - y * y)));
+  }
   return out;
 }
 

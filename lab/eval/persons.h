@@ -10,6 +10,7 @@
 #include "eval/metrics.h"
 #include "eval/ood.h"
 #include "eval/test_input.h"
+#include "learn/neutral_bank.h"
 #include "style/model.h"
 
 namespace panache {
@@ -64,6 +65,13 @@ class PersonsMeasure {
   std::vector<double> variances_;               // [6]
   std::vector<TestInput> walks_;
 };
+
+// How well two plain walks of one person agree on that person's numbers: the correlation of each
+// number over the people, from the first and from the last of their takes that are given.
+// [axes]; `people`: how many have two.
+Result<std::vector<double>> measure_retelling(const std::shared_ptr<const Model>& model,
+                                              const NeutralBank& bank,
+                                              const std::vector<Take>& neutral, size_t& people);
 
 // The persons of seeds on other motion, compared frame by frame with the input.
 Result<std::vector<OodRow>> measure_persons_on(const std::vector<TestInput>& inputs,

@@ -9,11 +9,10 @@
 #include <torch/torch.h>
 
 #include "base/parallel.h"
-#include "learn/cycle.h"
 #include "learn/fit_style.h"
+#include "learn/learn_person.h"
 #include "net/quantize.h"
 #include "recipes/recipes.h"
-#include "rig/canonical_skeleton.h"
 #include "style/networks.h"
 #include "style/pose_change.h"
 #include "train/network.h"
@@ -23,8 +22,7 @@ namespace {
 
 using enum HumanJoint;
 
-constexpr double kWorstMatch = 0.6;          // See learn_style.cpp.
-constexpr int kLongest = 300, kShortest = 45;  // Frames of a take that are used.
+constexpr int kShortest = 45;                    // Frames of a take.
 constexpr int kMaxGait = 1500, kMaxOther = 750;  // Samples of a person.
 constexpr double kMinGaitSeconds = 2;
 constexpr int kCommonGait = 400, kCommonOther = 400;  // Windows on which people are compared.
@@ -32,49 +30,6 @@ constexpr int kCommonGait = 400, kCommonOther = 400;  // Windows on which people
 constexpr double kTempoUnit = 0.05;
 constexpr int kMinPeople = 20;
 constexpr double kOutlier = 3;  // In median distances from the mean person.
-
-// A part of a take with its middle frames.
-Take middle_of(const Take& take, int frames) {
-  const int first = std::max(0, (take.frames() - frames) / 2);
-  const int last = std::min(take.frames(), first + frames);
-  const auto numbers = static_cast<int>(take.pose_features.size()) / take.frames();
-  const auto part = [&](const auto& list, int each) {
-    return std::decay_t<decltype(list)>(list.begin() + first * each, list.begin() + last * each);
-  };
-  Take out;
-  out.row = take.row;
-  out.body = part(take.body, 1);
-  out.root = part(take.root, 1);
-  out.contacts = part(take.contacts, 1);
-  out.pose_features = part(take.pose_features, numbers);
-  for (const HumanPositions& body : out.body) {
-    canonical_frames(body, 0, out.rotations.emplace_back());
-  }
-  return out;
-}
-
-// A person's takes, each behind its neutral twin, and how they match.
-struct Matched {
-  std::vector<Take> takes;
-  std::vector<Pairing> pairings;
-};
-
-Matched match_take(const NeutralBank& bank, const Take& whole) {
-  Matched out;
-  Take take = middle_of(whole, kLongest);
-  NeutralTwin twin = bank.twin(take, true);
-  if (!twin.facts.is_known) return out;
-  take.row.neutral = false;
-  take.row.style = "person";
-  twin.take.row.neutral = true;
-  twin.take.row.style = "neutral";
-  twin.take.row.set = take.row.set = 0;
-  twin.take.row.content = take.row.content;
-  out.takes = {std::move(twin.take), std::move(take)};
-  out.pairings = pair_in_phase(out.takes, 1, 0, 0);
-  if (out.pairings.empty() || mean_cost(out.pairings) > kWorstMatch) return {};
-  return out;
-}
 
 // At most `count` of a list, evenly spaced.
 std::vector<size_t> thinned(const std::vector<size_t>& list, size_t count) {
@@ -156,9 +111,8 @@ double mean_over(const Seen& seen, const std::function<double(const HumanPositio
 }
 double deviation_over(const Seen& seen, const std::function<double(const HumanPositions&)>& of) {
   const double mean = mean_over(seen, of);
-  return std::sqrt(mean_over(seen, [&](const HumanPositions& body) {
-    return (of(body) - mean) * (of(body) - mean);
-  }));
+  return std::sqrt(mean_over(
+      seen, [&](const HumanPositions& body) { return (of(body) - mean) * (of(body) - mean); }));
 }
 double ahead(const HumanPositions& body, HumanJoint joint) { return double{body[index(joint)].z}; }
 double height(const HumanPositions& body, HumanJoint joint) { return double{body[index(joint)].y}; }
@@ -268,12 +222,12 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
   std::vector<PersonHead> fitted(people.size());
   for (size_t p = 0; p < people.size(); ++p) {
     const std::vector<const Take*>& own = people[p].second;
-    std::vector<Matched> found(own.size());
+    std::vector<PersonMatch> found(own.size());
     parallel_for(static_cast<int>(own.size()),
-                 [&](int t) { found[t] = match_take(bank, *own[t]); });
+                 [&](int t) { found[t] = match_person(bank, *own[t]); });
     std::vector<Take> all;
     std::vector<Pairing> pairings;
-    for (Matched& matched : found) {
+    for (PersonMatch& matched : found) {
       if (matched.takes.empty()) continue;
       const auto first = static_cast<int>(all.size());
       for (Take& take : matched.takes) all.push_back(std::move(take));
@@ -387,8 +341,8 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
       wide.matmul(avh.slice(0, 0, units).t()) / as.slice(0, 0, units);  // [activations][units]
   const torch::Tensor reduced = centred.matmul(reduce);
   // Least squares of the answers on the units.
-  const torch::Tensor exact = centred.matmul(
-      axis_heads.permute({1, 0, 2}).reshape({activations, axes * outputs}));
+  const torch::Tensor exact =
+      centred.matmul(axis_heads.permute({1, 0, 2}).reshape({activations, axes * outputs}));
   const torch::Tensor fit =
       torch::linalg_solve(reduced.t().matmul(reduced) + 1e-9 * torch::eye(units, torch::kFloat64),
                           reduced.t().matmul(exact));  // [units][axes * outputs]
@@ -406,9 +360,9 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
                                (all.square().sum() / double(count - 1));
   for (int64_t a = 0; a < axes; ++a) {
     const bool named = axes == static_cast<int64_t>(kVisible.size());
-    out.axes.push_back({named ? kVisible[static_cast<size_t>(a)].name
-                              : "axis " + std::to_string(a + 1),
-                        named ? follows[a].item<double>() : 0, shares[a].item<double>()});
+    out.axes.push_back(
+        {named ? kVisible[static_cast<size_t>(a)].name : "axis " + std::to_string(a + 1),
+         named ? follows[a].item<double>() : 0, shares[a].item<double>()});
   }
   for (int64_t p = 0; p < count; ++p) {
     const PersonHead& person = fitted[static_cast<size_t>(p)];
@@ -424,7 +378,8 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
 
 TensorFile with_persons(const TensorFile& model, const FittedPersons& persons, double gain) {
   TensorFile out = model;
-  std::erase_if(out.tensors, [](const auto& tensor) { return tensor.first.starts_with("person."); });
+  std::erase_if(out.tensors,
+                [](const auto& tensor) { return tensor.first.starts_with("person."); });
   TensorFile part;
   part.tensors = persons.tensors;
   for (float& value : part.tensors["person.head.weight"].values) {

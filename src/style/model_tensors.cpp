@@ -117,11 +117,11 @@ Result<void> Model::measure_scratch(const std::string& name) {
   for (const PackedLayer& layer : reductions_) reduced = std::max(reduced, layer.width());
   size_t heads = 3 * activations + reduced + answers;
   if (persons_) {
-    const size_t products = padded(persons_->head().inputs()), width = persons_->reduction().width();
+    const size_t products = padded(persons_->head().inputs()),
+                 width = persons_->reduction().width();
     heads = std::max(heads, width + std::max(activations, products + persons_->head().width()));
   }
-  scratch_size_ =
-      padded(static_cast<size_t>(trunks_.inputs())) + trunks_.scratch_size() + heads;
+  scratch_size_ = padded(static_cast<size_t>(trunks_.inputs())) + trunks_.scratch_size() + heads;
   if (scratch_size_ <= kMaxScratch) return {};
   return Error{name + ": a step works in " + std::to_string(scratch_size_) +
                " numbers; expected trunks of fewer layers, so that it takes at most " +

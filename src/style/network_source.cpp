@@ -7,7 +7,6 @@ namespace panache {
 namespace {
 
 constexpr float kGateSeconds = 0.15f;  // Time constant of the gate.
-constexpr float kNear = 1e-4f;         // Numbers of persons that differ by less are equal.
 
 }  // namespace
 
@@ -32,7 +31,7 @@ void NetworkSource::set_person(std::span<const float> numbers) noexcept {
 // As for styles: from a quarter of a usual number on, a person is fully active.
 float NetworkSource::amount() const noexcept {
   float largest = 0;
-  for (const float number : eased_person_) largest = std::max(largest, std::abs(number));
+  for (const float number : networks_.person()) largest = std::max(largest, std::abs(number));
   return std::max(strengths_.amount(), std::min(1.0f, 4 * largest));
 }
 
@@ -54,11 +53,7 @@ void NetworkSource::ease_strengths(const Seen& seen) noexcept {
   strengths_.step(wanted_, sides_, shape_, seen.time);
   networks_.set_strengths(strengths_.now(), strengths_.sides());
   if (model().persons()) {
-    const float gain = seen.time.gain(options_.ease_seconds);
-    for (size_t a = 0; a < person_.size(); ++a) {
-      approach(eased_person_[a], person_[a], gain, kNear);
-    }
-    networks_.set_person(eased_person_);
+    networks_.ease_person(person_, seen.time.gain(options_.ease_seconds));
   }
   tell(seen.clock, Stage::strengths);
 }

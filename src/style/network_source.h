@@ -45,7 +45,6 @@ class NetworkSource final : public ChangeSource {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     EasedStrengths::visit_state(self.strengths_, visit);
-    visit(self.eased_person_);
     StyleNetworks::visit_state(self.networks_, visit);
     GesturePlayer::visit_state(self.gestures_, visit);
   }
@@ -61,7 +60,7 @@ class NetworkSource final : public ChangeSource {
   std::span<const float> wanted_;
   std::vector<float> sides_;  // As requested. [styles]
   Shape shape_;               // As requested.
-  PersonNumbers person_, eased_person_{};
+  PersonNumbers person_;      // As requested.
   EasedStrengths strengths_;
   StyleNetworks networks_;
   GesturePlayer gestures_;

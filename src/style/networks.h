@@ -30,6 +30,9 @@ class StyleNetworks {
   // The numbers of a person from now on, PersonSpace::axes() or more; all 0 is no person, as at
   // first. Ignored if the model has no persons.
   void set_person(std::span<const float> numbers) noexcept;
+  // Moves them towards others by this gain of a filter.
+  void ease_person(const PersonNumbers& numbers, float gain) noexcept;
+  const PersonNumbers& person() const { return person_; }
 
   // Evaluates a window as PoseHistory::window() gives it. The results stay until the next call. The
   // gate moves by the share `gate_share` from its last value towards the window's.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/one_pole.h"
 #include "style/networks_scratch.h"
 
 namespace panache {
@@ -13,6 +14,13 @@ void StyleNetworks::set_person(std::span<const float> numbers) noexcept {
     person_[a] = numbers[a];
     is_person_ = is_person_ || numbers[a] != 0;
   }
+}
+
+void StyleNetworks::ease_person(const PersonNumbers& numbers, float gain) noexcept {
+  constexpr float kNear = 1e-4f;
+  PersonNumbers eased = person_;
+  for (size_t a = 0; a < eased.size(); ++a) approach(eased[a], numbers[a], gain, kNear);
+  set_person(eased);
 }
 
 void StyleNetworks::add_person(std::span<const Pass> passes, std::span<const float> scratch,

@@ -19,7 +19,7 @@ namespace panache {
 class Model;
 
 // Limits for files, so that a step can work on the stack.
-inline constexpr size_t kMaxPersonAxes = 12, kMaxPersonUnits = 48;
+inline constexpr size_t kMaxPersonAxes = 10, kMaxPersonUnits = 48;
 
 // The numbers of a person, one per axis; axes that a model lacks are 0. Real people are distributed
 // like independent standard normal numbers, and 0 everywhere is the mean of them, which leaves

@@ -19,9 +19,9 @@ constexpr bool ends_without_padding(size_t last_offset, size_t last_size) {
   static_assert(ends_without_padding<type>(offsetof(type, field), sizeof(type::field)))
 ENDS_WITH(panache_skeleton_options, human_joints);
 ENDS_WITH(panache_character_options, gesture_seed);
-ENDS_WITH(panache_shape, hand_contacts);
+ENDS_WITH(panache_shape, energy);
 ENDS_WITH(panache_report, ahead);
-ENDS_WITH(panache_stylize_options, sides);
+ENDS_WITH(panache_stylize_options, person);
 ENDS_WITH(panache_retarget_options, meet_hands);
 ENDS_WITH(panache_learnt_report, certainty);
 

@@ -68,7 +68,8 @@ TEST_F(PersonOption, random_is_another_one_for_each_file_and_the_same_for_equal_
   EXPECT_EQ(people("1"), some);
   EXPECT_NE(people("2"), some);
   // The seed that is reported gives the same person.
-  EXPECT_TRUE(people("1") == some && read("out/a.bvh") == styled({"--person", std::to_string(some[0])}));
+  EXPECT_TRUE(people("1") == some &&
+              read("out/a.bvh") == styled({"--person", std::to_string(some[0])}));
 }
 
 TEST_F(PersonOption, that_makes_no_sense_is_rejected_with_the_cure) {

@@ -449,6 +449,41 @@ def test_styles_have_sides(model, walk):
             panache.stylize(model, walk, {'old': 1}, sides={style: side})
 
 
+def test_persons_come_by_seed_word_or_numbers(model, walk):
+    assert 'stride' in model.person_axes
+    numbers = model.person('mara')
+    assert numbers.shape == (len(model.person_axes),) and numbers.any()
+    assert np.array_equal(model.person('mara', 0.5), numbers * np.float32(0.5))
+    assert not np.array_equal(model.person(7), model.person(8))
+
+    def clip(who, **options):
+        return panache.stylize(model, walk, {}, person=who, **options).rotations.tobytes()
+
+    plain = walk.rotations.astype(np.float32).tobytes()
+    assert clip(None) == clip('mara', variety=0) == plain != clip('mara')
+    assert clip('mara') == clip(numbers) != clip(7)
+
+    def steps(*people):
+        character = panache.Character(model, walk.skeleton)
+        for who in people:
+            character.set_person(who)
+        return [character.stylize(rotations, translations, walk.frame_seconds)[0].tobytes()
+                for rotations, translations in zip(walk.rotations, walk.translations)]
+
+    assert steps() == steps(None) == steps('mara', None) != steps('mara') == steps(numbers)
+    for who, message in [(-1, 'person: expected a seed of 0 to 4294967295, found -1'),
+                         (np.zeros(3), 'person: expected an array of shape')]:
+        with pytest.raises(panache.PanacheError, match=message):
+            panache.stylize(model, walk, {}, person=who)
+
+
+def test_energy_is_an_amount_of_the_shape(model, walk):
+    def clip(energy):
+        return panache.stylize(model, walk, {}, shape={'energy': energy}).rotations.tobytes()
+
+    assert clip(1) == walk.rotations.astype(np.float32).tobytes() != clip(0.4) != clip(1.6)
+
+
 def test_gestures_are_listed_triggered_and_thrown_in(model, walk):
     assert len(model.gestures['scared']) > 0 and model.gestures['robot'] == []
     assert set(model.gestures) == set(model.styles)

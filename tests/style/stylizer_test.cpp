@@ -397,7 +397,7 @@ TEST_F(StylizerTest, a_state_that_is_damaged_or_of_another_model_is_rejected) {
   EXPECT_FALSE(stylizer({}, test::kSmith2019).restore(state));
 }
 
-TEST_F(StylizerTest, a_character_takes_at_most_16_kilobytes_beside_model_and_rig) {
+TEST_F(StylizerTest, a_character_takes_at_most_17_kilobytes_beside_model_and_rig) {
   const auto model = Model::load(PANACHE_SOURCE_DIR "/models/panache.safetensors");
   const Rig rig = *Rig::create(clip_);
   const size_t before = test::allocated_bytes;
@@ -406,7 +406,7 @@ TEST_F(StylizerTest, a_character_takes_at_most_16_kilobytes_beside_model_and_rig
   // What is asked for while creating is an upper bound of what is kept.
   std::printf("%zu bytes, of which %zu on the heap while creating\n", sizeof character + heap,
               heap);
-  EXPECT_LE(sizeof character + heap, 16 * 1024u);
+  EXPECT_LE(sizeof character + heap, 17 * 1024u);
 }
 
 // Hops of half a second, for which the networks take both feet to be planted all the time.

@@ -12,8 +12,8 @@ namespace panache {
 
 // Moves the directions of neck and arms and the orientation of the chest, in the heading frame,
 // towards their mean over the last seconds or away from it. Hips and legs keep their movement, and
-// with them feet, contacts and course; the head keeps its turns to the sides. Does nothing while the
-// energy is 1.
+// with them feet, contacts and course; the head keeps its turns to the sides. Does nothing while
+// the energy is 1.
 class Energy {
  public:
   void reset() noexcept { *this = {}; }
@@ -33,7 +33,7 @@ class Energy {
   static constexpr size_t kLimbs = 5;  // Neck, upper arms and forearms.
 
   bool runs_ = false;
-  Quat chest_;                          // Means.
+  Quat chest_;  // Means.
   std::array<Vec3, kLimbs> limbs_{};
 };
 
