@@ -8,12 +8,14 @@
 
 #include "bench/int8_layer.h"
 #include "bench/measure.h"
+#include "bench/motions.h"
 #include "bench/networks.h"
 #include "bench/onnx_file.h"
 #include "bench/published.h"
 #include "lab_program.h"
 #include "net/dense.h"
 #include "net/quantize.h"
+#include "rig/posed_rig.h"
 
 namespace panache::test {
 namespace {
@@ -38,6 +40,9 @@ TEST_F(BenchVerb, prints_every_number_that_it_promises) {
       EXPECT_GT(json.at(group).at(key), 0) << group << " " << key;
     }
   }
+  for (const char* motion : {"walk", "clap", "crouch"}) {
+    EXPECT_GT(json.at("step_over_networks").at(motion), 1) << motion;
+  }
   EXPECT_GT(json.at("characters_at_60hz"), 0);
   EXPECT_EQ(json.at("steps"), 100);
   // The sanitizers' allocator does not tell what is in use.
@@ -48,6 +53,36 @@ TEST_F(BenchVerb, prints_every_number_that_it_promises) {
     const auto& time = json.at("forward_pass_us").at(key);
     EXPECT_TRUE(time.is_number() ? time > 0 : json.at("missing").at(key).is_string()) << key;
   }
+}
+
+TEST(BenchMotions, clap_and_crouch_on_84_joints) {
+  const std::string walker = PANACHE_SOURCE_DIR "/models/walker.safetensors";
+  const Result<Clip> clap = make_clap(walker), crouch = make_crouch(walker);
+  ASSERT_TRUE(clap && crouch);
+  const auto range = [](const Clip& clip, const auto& value) {
+    const Result<Rig> rig = Rig::create(clip);
+    EXPECT_TRUE(rig);
+    EXPECT_EQ(clip.joints(), 84u);
+    PosedRig posed(*rig);
+    float low = 1e9f, high = -1e9f;
+    for (int f = 0; f < clip.frames; ++f) {
+      BodyPose pose;
+      posed.read(clip.pose(f), pose);
+      low = std::min(low, value(pose.joints)), high = std::max(high, value(pose.joints));
+    }
+    return std::pair(low, high);
+  };
+  const auto [together, apart] = range(*clap, [](const HumanPositions& joints) {
+    return length(joints[index(HumanJoint::left_hand)] - joints[index(HumanJoint::right_hand)]);
+  });
+  EXPECT_NEAR(together, 0.1f, 0.02f);
+  EXPECT_GT(apart, 0.4f);
+  const auto height_of = [&](HumanJoint joint) {
+    return range(*crouch, [&](const HumanPositions& joints) { return joints[index(joint)].y; });
+  };
+  EXPECT_NEAR(height_of(HumanJoint::hips).second - height_of(HumanJoint::hips).first, 0.4f, 0.05f);
+  const auto [low, high] = height_of(HumanJoint::left_foot);
+  EXPECT_LT(high - low, 0.02f);
 }
 
 TEST_F(BenchVerb, prints_tables_that_name_what_is_missing) {
