@@ -1,7 +1,6 @@
 #include "person_options.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "clip/text_cursor.h"
@@ -13,14 +12,6 @@ namespace panache::cli {
 namespace {
 
 constexpr const char* kRandom = "random";
-
-// The seed that a number or a word names. Digits that are no 32-bit number count as a word.
-uint32_t seed_of(const std::string& text) {
-  uint32_t seed = 0;
-  const bool digits = std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c); });
-  if (digits && CLI::detail::lexical_cast(text, seed)) return seed;
-  return person_seed(text);
-}
 
 // Numbers with commas between them, one for each axis.
 PersonNumbers numbers_of(const std::string& text, const Model& model) {
@@ -101,7 +92,7 @@ std::optional<PersonWish> read_person_options(const PersonFlags& flags, const Mo
   if (flags.person.find(',') != std::string::npos) {
     wish.numbers = numbers_of(flags.person, model);
   } else if (!random) {
-    wish.seed = seed_of(flags.person);
+    wish.seed = person_seed(flags.person);
   }
   return wish;
 }

@@ -166,7 +166,7 @@ PANACHE_API const char* panache_model_person_axis_name(const panache_model* mode
  * panache_model_person_axis_count(). Fails if the model has no persons. */
 PANACHE_API panache_status panache_model_draw_person(const panache_model* model, uint32_t seed,
                                                      float* numbers, int32_t count);
-/* The seed of a word, such as a character's name. */
+/* The seed of a word, such as a character's name; of "7" it is 7. */
 PANACHE_API uint32_t panache_person_seed(const char* word);
 
 /* ---- Skeletons ------------------------------------------------------------------------------ */

@@ -1,6 +1,7 @@
 #include "style/person.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/random.h"
@@ -15,7 +16,8 @@ constexpr const char* kNames = "person_axes";
 
 // The 95 % quantile of the squared length of standard normal vectors (chi-squared), by their size.
 constexpr std::array<float, kMaxPersonAxes> kNearly = {3.841f,  5.991f,  7.815f,  9.488f,  11.070f,
-                                                       12.592f, 14.067f, 15.507f, 16.919f, 18.307f};
+                                                       12.592f, 14.067f, 15.507f, 16.919f, 18.307f,
+                                                       19.675f, 21.026f};
 
 std::vector<std::string> lines_of(std::string_view text) {
   std::vector<std::string> lines;
@@ -106,6 +108,12 @@ PersonNumbers person_of_seed(const Model& model, uint32_t seed, float amount) no
 }
 
 uint32_t person_seed(std::string_view word) noexcept {
+  uint32_t seed = 0;
+  const char* const end = word.data() + word.size();
+  if (const auto read = std::from_chars(word.data(), end, seed);
+      read.ec == std::errc() && read.ptr == end) {
+    return seed;
+  }
   // Fowler, Noll and Vo's hash (FNV-1a).
   uint32_t hash = 0x811c9dc5;
   for (const char c : word) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193;

@@ -69,7 +69,7 @@ inline constexpr float kMaxVariety = 2;
 // persons.
 PersonNumbers person_of_seed(const Model& model, uint32_t seed, float amount) noexcept;
 
-// The seed of a word.
+// The seed of a word; of a whole number below 2^32, that number.
 uint32_t person_seed(std::string_view word) noexcept;
 
 // Fails with a message if a model has no persons.

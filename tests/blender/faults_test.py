@@ -69,6 +69,24 @@ assert not settings._problem
 assert bpy.ops.panache.bake() == {'FINISHED'}
 armature.animation_data.action = walk
 
+# A model without persons: it says so, and the rest goes on.
+armature.panache.person = 'mara'
+assert settings.person_problem(armature) == '' and settings.person(armature) == 'mara'
+preferences().model = os.path.join(os.path.dirname(__file__), '../../models/smith2019.safetensors')
+assert settings.person_problem(armature).startswith('the model has no persons; expected ')
+assert settings.person(armature) is None
+armature.panache.styles.angry = 1
+armature.panache.preview = True
+assert armature.panache.preview, armature.panache.notes
+assert bpy.ops.panache.bake() == {'FINISHED'}
+assert armature.animation_data.action.name == 'walk (angry 1)'
+armature.panache.preview = False
+armature.panache.person = ''
+assert settings.person_problem(armature) == ''
+preferences().model = ''
+armature.panache.styles.angry = 0
+armature.animation_data.action = walk
+
 # A style is learnt from an action in it.
 assert 'expected an action in the style' in error_of(bpy.ops.panache.learn)
 

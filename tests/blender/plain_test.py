@@ -25,6 +25,23 @@ bpy.ops.export_scene.gltf(filepath=os.path.join(checks.folder, 'walk.glb'), expo
 checks.run('stylize', 'walk.glb', '--style', 'old=1', '-o', 'old.glb', '--force')
 styled = glb.Glb(os.path.join(checks.folder, 'old.glb'))
 
+
+def compare(glb_file, word, action):
+    """A baked action is the motion of a GLB whose name holds `word`."""
+    first, last = checks.span(action)
+    name = [n for n in glb_file.names if word in n][0]
+    rate = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
+    frames = range(first, last + 1)
+    in_glb = glb_file.places(name, [frame / rate for frame in frames])
+    worst = (0, '')
+    for frame, places in zip(frames, in_glb):
+        for bone, head in checks.heads(armature, frame).items():
+            worst = max(worst, ((head - places[bone]).length, '%s in frame %d' % (bone, frame)))
+    print('plain rig, %s: %.2f mm at most between Blender and panache stylize, %s' % (
+        word, 1000 * worst[0], worst[1]))
+    assert worst[0] < MOST_APART, worst
+
+
 # Strength 0: a new action with every channel as it was.
 before = checks.channels(walk)
 assert bpy.ops.panache.bake() == {'FINISHED'}
@@ -41,22 +58,30 @@ assert baked.name == 'walk (old 1)', baked.name
 assert checks.channels(walk) == before, 'the old action has changed'
 tracks = armature.animation_data.nla_tracks
 assert [(t.name, t.mute, t.strips[0].action) for t in tracks] == [('walk', True, walk)]
-
-first, last = checks.span(baked)
-name = [n for n in styled.names if 'old 1' in n][0]
-rate = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
-start = checks.span(walk)[0]
-frames = range(first, last + 1)
-in_glb = styled.places(name, [frame / rate for frame in frames])
-worst = (0, '')
-for frame, places in zip(frames, in_glb):
-    for bone, head in checks.heads(armature, frame).items():
-        worst = max(worst, ((head - places[bone]).length, '%s in frame %d' % (bone, frame)))
-print('plain rig: %.2f mm at most between Blender and panache stylize, %s' % (1000 * worst[0],
-                                                                           worst[1]))
-assert worst[0] < MOST_APART, worst
+compare(styled, 'old 1', baked)
 assert armature.panache.known.endswith('%')
 assert 'leftFoot\tleftFoot' in armature.panache.mapping, armature.panache.mapping
+
+# A person, of a word or a number, and another energy, without a style.
+settings = importlib.import_module('panache.settings')
+armature.panache.styles.old = 0
+for text, seed, energy in (('mara', 'mara', 0.5), (' 7 ', '7', 1)):
+    armature.panache.person, armature.panache.variety = text, 1.5
+    armature.panache.energy = energy
+    armature.animation_data.action = walk
+    assert settings.person(armature) == seed
+    assert bpy.ops.panache.bake() == {'FINISHED'}
+    moved = armature.animation_data.action
+    assert moved.name == ('walk (person mara, energy 0.5)' if seed == 'mara' else
+                          'walk (person 7)'), moved.name
+    assert checks.channels(moved) != before
+    checks.run('stylize', 'walk.glb', '--person', str(seed), '--variety', '1.5', '--energy',
+               str(energy), '-o', 'person.glb', '--force')
+    compare(glb.Glb(os.path.join(checks.folder, 'person.glb')), 'person', moved)
+for text in (' ', ''):
+    armature.panache.person = text
+    assert settings.person(armature) is None
+armature.panache.variety = armature.panache.styles.old = 1
 
 # A style learnt from the two actions.
 armature.panache.neutral, armature.panache.styled = walk, baked
@@ -68,7 +93,6 @@ armature.panache.styles.old, armature.panache.styles.limp = 0, 1
 
 # The panel lists the styles by their groups, the learnt one under none; of a group that is folded,
 # the sliders that are not at 0.
-settings = importlib.import_module('panache.settings')
 groups = settings.model().groups
 assert sorted(sum(groups.values(), [])) == sorted(settings.model().styles)
 assert groups[''][-1] == 'limp', groups

@@ -1,5 +1,5 @@
-// Test.exe MODEL NEUTRAL.bvh STYLED.bvh POSES LIT LAMP BANK STRUCTS: C# against the C interface. POSES is what
-// c_step wrote of NEUTRAL.bvh; LIT and LAMP are what lamp.py wrote.
+// Test.exe MODEL NEUTRAL.bvh STYLED.bvh POSES LIT LAMP BANK STRUCTS WITHOUT: C# against the C interface. POSES
+// is what c_step wrote of NEUTRAL.bvh; LIT and LAMP are what lamp.py wrote; WITHOUT is a model without persons.
 
 using System;
 using System.Collections.Generic;
@@ -107,6 +107,48 @@ static class Test {
       byte[] captured = Play(plain, walk, 0, 60);
       Expect(!Play(mirrored, walk, 0, 60).SequenceEqual(captured), "another side");
       Expect(Play(back, walk, 0, 60).SequenceEqual(captured), "the captured side");
+    }
+  }
+
+  static void PersonsHaveSeedsAndNumbers(Model model, Model without, Clip walk) {
+    Expect(model.PersonAxes.Count >= 6 && model.PersonAxes.Contains("arm swing"), "axes of persons");
+    Expect(without.PersonAxes.Count == 0, "a model without persons");
+    using (var plain = new Character(model, walk.Skeleton))
+    using (var one = new Character(model, walk.Skeleton))
+    using (var same = new Character(model, walk.Skeleton))
+    using (var other = new Character(model, walk.Skeleton))
+    using (var nobody = new Character(model, walk.Skeleton))
+    using (var leaning = new Character(model, walk.Skeleton)) {
+      one.SetPerson(Model.PersonSeed("mara"));
+      same.SetPerson(7);
+      same.SetPerson(Model.PersonSeed("mara"), 1);
+      other.SetPerson(7);
+      nobody.SetPerson(7);
+      nobody.SetPerson(7, 0);
+      var numbers = new float[model.PersonAxes.Count];
+      numbers[0] = 2;
+      leaning.SetPerson(numbers);
+      byte[] unchanged = Play(plain, walk, 0, 60), found = Play(one, walk, 0, 60);
+      Expect(!found.SequenceEqual(unchanged), "another person");
+      Expect(Play(same, walk, 0, 60).SequenceEqual(found), "the same person");
+      Expect(!Play(other, walk, 0, 60).SequenceEqual(found), "a third person");
+      Expect(Play(nobody, walk, 0, 60).SequenceEqual(unchanged), "nobody");
+      Expect(!Play(leaning, walk, 0, 60).SequenceEqual(unchanged), "a person of numbers");
+      ExpectRejection("a person's amount is 3", () => one.SetPerson(7, 3));
+      ExpectRejection("1 numbers of a person; expected ", () => one.SetPerson(new float[1]));
+    }
+    using (var character = new Character(without, walk.Skeleton))
+      ExpectRejection("the model has no persons; expected ", () => character.SetPerson(7));
+  }
+
+  static void EnergyCalmsTheInput(Model model, Clip walk) {
+    using (var plain = new Character(model, walk.Skeleton))
+    using (var calm = new Character(model, walk.Skeleton)) {
+      calm.SetShape(new Shape { Energy = 0.3f });
+      plain.SetShape(new Shape());
+      Expect(!Play(calm, walk, 0, 60).SequenceEqual(Play(plain, walk, 0, 60)), "a calmer walk");
+      Expect(plain.Rotations.SequenceEqual(plain.InputRotations), "the input's own energy");
+      Expect(calm.Translations.SequenceEqual(calm.InputTranslations), "the course of the input");
     }
   }
 
@@ -243,6 +285,8 @@ static class Test {
     StructsAreThoseOfTheHeader(File.ReadAllLines(arguments[7]));
     StepsHaveTheBitsOfC(model, walk, File.ReadAllBytes(arguments[3]));
     StylesHaveSides(model, walk);
+    PersonsHaveSeedsAndNumbers(model, Model.Load(arguments[8]), walk);
+    EnergyCalmsTheInput(model, walk);
     ACharacterIsSavedShapedAndReports(model, walk);
     ASkeletonIsFoundAmongJoints(model);
     AStyleIsLearnt(model, walk, styled);

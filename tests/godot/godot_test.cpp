@@ -87,7 +87,7 @@ Clip Godot::walk_;
 // The library itself, on the same joints in the walk's order below a joint for the node.
 class Reference {
  public:
-  explicit Reference(const Clip& walk, bool style_root = false) : walk_(walk) {
+  explicit Reference(const Clip& walk, bool style_root = false, float strength = 1) : walk_(walk) {
     std::vector<panache_joint> joints = {{"", -1, {0, 0, 0, 1}, {0, 0, 0}}};
     for (const Joint& joint : walk.skeleton.joints) {
       joints.push_back({joint.name.c_str(),
@@ -104,7 +104,7 @@ class Reference {
     panache_character_options options = PANACHE_CHARACTER_OPTIONS;
     options.style_root = style_root;
     EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &character_), PANACHE_OK);
-    panache_character_set_strength(character_, panache_model_find_style(model_, "old"), 1);
+    panache_character_set_strength(character_, panache_model_find_style(model_, "old"), strength);
     rotations_.resize(4 * joints.size());
     translations_.resize(3 * joints.size());
   }
@@ -129,6 +129,15 @@ class Reference {
   void reset() { panache_character_reset(character_); }
   void set_side(float side) {
     panache_character_set_side(character_, panache_model_find_style(model_, "old"), side);
+  }
+  void set_person(uint32_t seed, float amount = 1) {
+    EXPECT_EQ(panache_character_set_person(character_, seed, amount), PANACHE_OK)
+        << panache_last_error();
+  }
+  void set_energy(float energy) {
+    panache_shape shape = PANACHE_SHAPE;
+    shape.energy = energy;
+    panache_character_set_shape(character_, &shape);
   }
   // Largest difference to the host's bones, of which each is that joint of the walk.
   template <class Place>
@@ -200,6 +209,132 @@ TEST_F(Godot, the_side_of_a_style_is_the_librarys) {
   host.free_node(node);
 }
 
+TEST_F(Godot, a_person_is_a_number_or_a_word_and_may_change) {
+  struct Case {
+    const char* text;
+    uint32_t seed;
+  };
+  for (const Case& one : {Case{"7", 7},
+                          {" 007 ", 7},
+                          {"4294967295", UINT32_MAX},
+                          {"4294967296", panache_person_seed("4294967296")},
+                          {"-7", panache_person_seed("-7")},
+                          {"7up", panache_person_seed("7up")},
+                          {" mara", panache_person_seed("mara")},
+                          {"mara jones", panache_person_seed("mara jones")}}) {
+    void* node = host.make_node();
+    EXPECT_TRUE(host.set(node, "person", std::string(one.text)));
+    EXPECT_EQ(host.get_text(node, "person"), one.text);  // As typed, while a word is typed, too.
+    host.set(node, "styles/old", 1.0);
+    host.set(node, "model_path", std::string(kModel));
+    Reference reference(walk_);
+    reference.set_person(one.seed);
+    for (int f = 0; f < 20; ++f) {
+      animate(f);
+      host.process(node);
+      reference.step(f, host.seconds);
+      ASSERT_EQ(reference.apart(place), 0) << "'" << one.text << "', frame " << f;
+    }
+    host.free_node(node);
+  }
+
+  void* node = host.make_node();
+  host.set(node, "model_path", std::string(kModel));
+  Reference reference(walk_, false, 0), nobody(walk_, false, 0);
+  float most = 0;
+  for (int f = 0; f < walk_.frames; ++f) {
+    if (f == 30) {
+      host.set(node, "person", int64_t{7});  // By a script.
+      reference.set_person(7);
+    } else if (f == 60) {
+      host.set(node, "variety", 1.5);
+      reference.set_person(7, 1.5f);
+    } else if (f == 90) {
+      host.set(node, "variety", 3.0);  // The inspector has a range.
+      reference.set_person(7, 2);
+    } else if (f == 120) {
+      host.set(node, "person", std::string());
+      reference.set_person(7, 0);
+    }
+    animate(f);
+    host.process(node);
+    reference.step(f, host.seconds);
+    nobody.step(f, host.seconds);
+    ASSERT_EQ(reference.apart(place), 0) << "frame " << f;
+    if (f < 30) {
+      ASSERT_EQ(nobody.apart(place), 0) << "frame " << f;
+    }
+    if (f < 120) most = std::max(most, nobody.apart(place));
+  }
+  EXPECT_GT(most, 0.01f);
+  EXPECT_TRUE(host.errors.empty()) << host.errors.front();
+  host.free_node(node);
+}
+
+TEST_F(Godot, energy_is_the_librarys) {
+  void* node = host.make_node();
+  EXPECT_TRUE(host.set(node, "shape/energy", 0.3));
+  host.set(node, "model_path", std::string(kModel));
+  Reference reference(walk_, false, 0), plain(walk_, false, 0);
+  reference.set_energy(0.3f);
+  float most = 0;
+  for (int f = 0; f < 90; ++f) {
+    if (f == 60) {
+      host.set(node, "shape/energy", 1.7);
+      reference.set_energy(1.7f);
+    }
+    animate(f);
+    host.process(node);
+    reference.step(f, host.seconds);
+    plain.step(f, host.seconds);
+    ASSERT_EQ(reference.apart(place), 0) << "frame " << f;
+    most = std::max(most, plain.apart(place));
+  }
+  EXPECT_GT(most, 0.01f);
+  host.free_node(node);
+}
+
+TEST_F(Godot, a_model_without_persons_is_told_once) {
+  host.files["res://without"] = read(PANACHE_SOURCE_DIR "/models/smith2019.safetensors");
+  void* node = host.make_node();
+  host.set(node, "model_path", std::string("res://without"));
+  for (int f = 0; f < 60; ++f) {
+    if (f == 10) {
+      EXPECT_TRUE(host.errors.empty()) << host.errors.front();
+      host.set(node, "person", std::string("mara"));
+    }
+    if (f >= 10) host.set(node, "variety", f / 60.0);
+    if (f == 20) host.set(node, "hold_feet", false);  // Another character.
+    if (f == 50) host.set(node, "person", std::string());
+    animate(f);
+    host.process(node);
+  }
+  ASSERT_EQ(host.errors.size(), 1u);
+  EXPECT_EQ(host.errors[0].rfind("Panache: the model has no persons; expected ", 0), 0u)
+      << host.errors[0];
+  host.writes = 0;
+  host.set(node, "styles/angry", 1.0);
+  for (int f = 60; f < 90; ++f) {
+    animate(f);
+    host.process(node);
+  }
+  EXPECT_GT(host.writes, 0) << "the styles go on";
+  EXPECT_EQ(host.errors.size(), 1u) << host.errors.back();
+
+  // With another model, the person is there.
+  host.set(node, "person", std::string("mara"));
+  host.set(node, "styles/angry", 0.0);
+  host.set(node, "model_path", std::string(kModel));
+  host.writes = 0;
+  for (int f = 0; f < 30; ++f) {
+    animate(f);
+    host.process(node);
+  }
+  EXPECT_GT(host.writes, 0);
+  EXPECT_EQ(host.errors.size(), 1u) << host.errors.back();
+  host.free_node(node);
+}
+
 TEST_F(Godot, bones_before_their_parents_turned_and_scaled_nodes_are_styled_alike) {
   // The other way round: the children come first.
   std::reverse(host.bones.begin(), host.bones.end());
@@ -243,7 +378,7 @@ TEST_F(Godot, properties_are_listed_set_read_and_reverted) {
   EXPECT_EQ(host.type_name, "PanacheCharacter");
   EXPECT_EQ(host.parent_name, "SkeletonModifier3D");
   void* node = host.make_node();
-  EXPECT_EQ(host.properties(node).size(), 5u);
+  EXPECT_EQ(host.properties(node).size(), 8u);
   host.set(node, "model_path", std::string(kModel));
   EXPECT_EQ(host.list_changes, 1);
   std::set<std::string> names;
@@ -272,6 +407,17 @@ TEST_F(Godot, properties_are_listed_set_read_and_reverted) {
   EXPECT_EQ(host.get_real(node, "gestures"), 1);
   EXPECT_TRUE(host.set(node, "gestures", 0.0));
   EXPECT_EQ(host.get_real(node, "gestures"), 0);
+  EXPECT_TRUE(names.contains("person") && names.contains("variety"));
+  EXPECT_EQ(host.get_text(node, "person"), "");
+  EXPECT_TRUE(host.set(node, "person", int64_t{12}));
+  EXPECT_EQ(host.get_text(node, "person"), "12");
+  EXPECT_EQ(host.get_real(node, "variety"), 1);
+  EXPECT_TRUE(host.set(node, "variety", 0.5));
+  EXPECT_EQ(host.get_real(node, "variety"), 0.5);
+  EXPECT_EQ(host.get_real(node, "shape/energy"), 1);
+  EXPECT_TRUE(host.set(node, "shape/energy", 0.5));
+  EXPECT_EQ(host.get_real(node, "shape/energy"), 0.5);
+  EXPECT_FALSE(host.set(node, "shape/elbows", 0.5));
   EXPECT_EQ(host.get_text(node, "model_path"), kModel);
   EXPECT_FALSE(host.set(node, "position", 1.0));
   EXPECT_FALSE(host.can_revert(node, "position"));

@@ -336,6 +336,9 @@ bool Host::set(void* node, const std::string& property, bool value) {
   plain.flag = value;
   return set_property(node, property, plain);
 }
+bool Host::set(void* node, const std::string& property, int64_t value) {
+  return set_property(node, property, of(value));
+}
 double Host::get_real(void* node, const std::string& property) {
   return get_property(node, property).real;
 }

@@ -46,6 +46,7 @@ struct Host {
   bool set(void* node, const std::string& property, const std::string& value);
   bool set(void* node, const std::string& property, double value);
   bool set(void* node, const std::string& property, bool value);
+  bool set(void* node, const std::string& property, int64_t value);
   double get_real(void* node, const std::string& property);
   bool get_flag(void* node, const std::string& property);
   std::string get_text(void* node, const std::string& property);

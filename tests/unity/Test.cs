@@ -1,5 +1,6 @@
-// Test.exe MODEL WALK.bvh: the component of the Unity package on stand-ins of Unity's types, against
-// the library's own steps. WALK.bvh is what `panache walker` writes: its joints have VRM's names.
+// Test.exe MODEL WALK.bvh WITHOUT: the component of the Unity package on stand-ins of Unity's types,
+// against the library's own steps. WALK.bvh is what `panache walker` writes: its joints have VRM's
+// names. WITHOUT is a model without persons.
 
 using System;
 using System.Collections.Generic;
@@ -281,6 +282,92 @@ static class Test {
     Expect(actor.Component.styles.Count == 1, "one entry for a style");
   }
 
+  // A number, a word and nobody; a person who is changed while the character moves.
+  static void PersonsAreTheLibrarys(TextAsset file, Panache.Model model) {
+    var seeds = new Dictionary<string, uint> {
+      { "7", 7 }, { " 007 ", 7 }, { "4294967295", uint.MaxValue }, { " mara", Seed("mara") },
+      { "4294967296", Seed("4294967296") }, { "-7", Seed("-7") },
+      { "7up", Seed("7up") }, { "+7", Seed("+7") }
+    };
+    foreach (var entry in seeds) {
+      var actor = new Actor(file);
+      actor.Component.person = entry.Key;
+      actor.Start();
+      var reference = new Reference(model);
+      reference.Character.SetPerson(entry.Value);
+      for (int f = 0; f < 20; ++f)
+        Expect(actor.Play(f).SequenceEqual(reference.Play(f)),
+               "person '" + entry.Key + "' in frame " + f);
+    }
+    var changing = new Actor(file).Start();
+    var expected = new Reference(model);
+    var nobody = new Reference(model);
+    float apart = 0;
+    for (int f = 0; f < 240; ++f) {
+      if (f == 30) {
+        changing.Component.person = "mara";
+        changing.Component.variety = 1.5f;
+        expected.Character.SetPerson(Seed("mara"), 1.5f);
+      } else if (f == 90) {
+        changing.Component.variety = 3;  // A script's; the inspector has a range.
+        expected.Character.SetPerson(Seed("mara"), 2);
+      } else if (f == 150) {
+        changing.Component.person = null;
+        expected.Character.SetPerson(0, 0);
+      }
+      float[] pose = changing.Play(f % walk.FrameCount), plain = nobody.Play(f % walk.FrameCount);
+      Expect(pose.SequenceEqual(expected.Play(f % walk.FrameCount)), "the person in frame " + f);
+      if (f < 30) Expect(pose.SequenceEqual(plain), "nobody in frame " + f);
+      if (f < 150) apart = Math.Max(apart, Apart(pose, plain));
+    }
+    Expect(apart > 0.01f, "another person");
+  }
+
+  static uint Seed(string word) => Panache.Model.PersonSeed(word);
+
+  static void EnergyIsTheLibrarys(TextAsset file, Panache.Model model) {
+    var actor = new Actor(file);
+    actor.Component.shape.energy = 0.3f;
+    actor.Start();
+    var reference = new Reference(model);
+    reference.Character.SetShape(new Panache.Shape { Energy = 0.3f });
+    var plain = new Reference(model);
+    float apart = 0;
+    for (int f = 0; f < 90; ++f) {
+      if (f == 60) {
+        actor.Component.shape.energy = 1.7f;
+        reference.Character.SetShape(new Panache.Shape { Energy = 1.7f });
+      }
+      float[] pose = reference.Play(f);
+      Expect(actor.Play(f).SequenceEqual(pose), "the library's pose in frame " + f);
+      apart = Math.Max(apart, Apart(plain.Play(f), pose));
+    }
+    Expect(apart > 0.01f, "a calmer walk");
+  }
+
+  static void AModelWithoutPersonsIsToldOnce(TextAsset file, Panache.Model model) {
+    string style = model.Styles[0];
+    var actor = new Actor(file);
+    actor.Component.SetStrength(style, 1);
+    actor.Start();
+    var reference = new Reference(model);
+    reference.Character.SetStrength(style, 1);
+    for (int f = 0; f < 60; ++f) {
+      if (f == 20) {
+        Expect(Debug.Errors.Count == 0, "no error without a person");
+        actor.Component.person = "mara";
+      }
+      actor.Component.variety = f / 60f;
+      if (f == 50) actor.Component.person = "";
+      Expect(actor.Play(f).SequenceEqual(reference.Play(f)), "nobody, but the style, in frame " + f);
+    }
+    Expect(Debug.Errors.Count == 1 &&
+               Debug.Errors[0].StartsWith("Panache: the model has no persons; expected ") &&
+               actor.Component.enabled,
+           "no persons are told once: " + string.Join("; ", Debug.Errors));
+    Debug.Errors.Clear();
+  }
+
   static void ATeleportStartsAfresh(TextAsset file, Panache.Model model) {
     var actor = new Actor(file);
     actor.Component.SetStrength("old", 1);
@@ -359,6 +446,11 @@ static class Test {
     APoseThatWasNotAnimatedIsNotStyledTwice(file);
     StrengthsAreAListThatMayChange(file, model);
     SidesAreTheLibrarys(file, model);
+    PersonsAreTheLibrarys(file, model);
+    EnergyIsTheLibrarys(file, model);
+    AModelWithoutPersonsIsToldOnce(
+        new TextAsset { name = "without", bytes = File.ReadAllBytes(arguments[2]) },
+        Panache.Model.Load(arguments[2]));
     ATeleportStartsAfresh(file, model);
     AvatarsMayLackBones(file);
     WhatIsMissingIsTold(file);

@@ -119,6 +119,11 @@ public static class Time {
   public static float deltaTime = 1f / 30;
 }
 
+public static class Mathf {
+  public static float Clamp(float value, float least, float most) =>
+      value < least ? least : value > most ? most : value;
+}
+
 public static class Debug {
   public static readonly List<string> Errors = new List<string>();
   public static void LogError(object message, Object about) { Errors.Add(message.ToString()); }

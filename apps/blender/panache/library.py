@@ -33,6 +33,12 @@ class Model:
                 self.problems.append('%s: %s' % (name, error))
         self.styles = self.all.styles
         self.sides = dict(zip(self.styles, self.all.sides))  # 'right leg', or ''.
+        # The error of every person, if the model has none; else ''.
+        self.no_persons = ''
+        try:
+            self.all.person(0)
+        except PanacheError as error:
+            self.no_persons = str(error)
         # {group: its styles}, in the model's order; '' holds styles without a group.
         self.groups = {}
         for style, group in zip(self.styles, self.all.groups):

@@ -33,10 +33,6 @@ def _part(begin, end, work):
             return stop.value
 
 
-def _amount(number):
-    return ('%.2f' % number).rstrip('0').rstrip('.')
-
-
 class _OnArmature:
     bl_options = {'REGISTER', 'UNDO'}
 
@@ -115,17 +111,18 @@ class PANACHE_OT_bake(_OnArmature, bpy.types.Operator):
     def _bake(self, context, armature):
         action = self.source(armature)
         armature.panache.preview = False
-        strengths = settings.strengths(armature)
         sampled = yield from _part(0, _SAMPLING, sampling.Sampled.reading(context, armature, action))
-        styled = sampled.stylize(settings.model(), strengths, settings.options(armature))
+        styled = sampled.stylize(settings.model(), settings.strengths(armature),
+                                 settings.options(armature))
         preview.note(armature, sampled, styled, controls.Plan(armature, sampled.joints))
-        styles = ', '.join('%s %s' % (name, _amount(value)) for name, value in strengths.items())
         new = yield from _part(_SAMPLING, 1, baking.bake(
             context, armature, sampled, styled, action,
-            '%s (%s)' % (action.name, styles or 'no style')))
+            '%s (%s)' % (action.name, settings.describe(armature))))
         if context.scene.frame_end < sampled.first + len(styled) - 1:
             context.scene.frame_end = sampled.first + len(styled) - 1
         context.scene.frame_set(context.scene.frame_current)
+        if settings.person_problem(armature):
+            self.report({'WARNING'}, settings.person_problem(armature))
         self.report({'INFO'}, "baked '%s'; '%s' is a muted NLA track" % (new.name, action.name))
 
 

@@ -31,6 +31,17 @@ def _draw_styles(layout, found):
                 column.prop(found.sides, settings.property_of(name), slider=True)
 
 
+def _draw_person(layout, armature):
+    found, problem = armature.panache, settings.person_problem(armature)
+    column = layout.column(align=True)
+    column.prop(found, 'person')
+    row = column.row()
+    row.active = settings.person(armature) is not None
+    row.prop(found, 'variety', slider=True)
+    if problem:
+        layout.label(text=problem, icon='ERROR')
+
+
 class PANACHE_PT_style(_Panel, bpy.types.Panel):
     bl_label = 'Style'
 
@@ -41,6 +52,7 @@ class PANACHE_PT_style(_Panel, bpy.types.Panel):
             layout.label(text='This armature plays no action', icon='INFO')
         settings.draw_problem(layout)
         _draw_styles(layout, found)
+        _draw_person(layout, context.object)
         layout.prop(found, 'preview', toggle=True, icon='HIDE_OFF')
         row = layout.row()
         row.scale_y = 1.4

@@ -22,6 +22,8 @@ SHAPE = {
     'left_arm': ('Left Arm', 'Amount of the style on the left arm', 2.0),
     'right_arm': ('Right Arm', 'Amount of the style on the right arm', 2.0),
     'hand_contacts': ('Hand Contacts', 'How firmly hands keep what they touch', 1.0),
+    'energy': ('Energy', "From calm (0) to lively (2): the action's own movement of torso, head "
+                         'and arms, without a style, too', 2.0),
 }
 _model = None
 _problem = ''  # Why the model in the preferences is not in use.
@@ -197,6 +199,14 @@ def _make_settings_class(styles, sides, groups):
             name='Gestures', default=1, min=0, max=10, soft_max=2, update=_changed,
             description='How often the styles make their gestures: 1 as often as the performers, 0 '
                         'never. An action that loops has none'),
+        person=StringProperty(
+            name='Person', update=_changed,
+            description='Who the armature moves as, in addition to the styles: a number or a word, '
+                        'each is another person. Empty: nobody'),
+        variety=FloatProperty(
+            name='Variety', default=1, min=0, max=2, update=_changed,
+            description='How far the person is from the mean of people: 1 as real people differ, 0 '
+                        'not at all'),
         timing_where=EnumProperty(
             name='Tempo', default='steps', update=_changed,
             description='Where the style\'s tempo is applied',
@@ -273,11 +283,35 @@ def shape(armature):
     return {name: getattr(armature.panache, name) for name in SHAPE}
 
 
+def person(armature):
+    """The person for stylize(), a number or a word; None: nobody, or the model has no persons."""
+    return armature.panache.person.strip() or None if not model().no_persons else None
+
+
+def person_problem(armature):
+    """Why the person is not put on; '' if it is."""
+    return model().no_persons if armature.panache.person.strip() else ''
+
+
+def describe(armature):
+    """What is put on, for the name of an action: 'old 1, person mara, energy 0.5'."""
+    parts = ['%s %s' % (name, _amount(value)) for name, value in strengths(armature).items()]
+    if person(armature) is not None:
+        parts.append('person %s' % person(armature))
+    if armature.panache.energy != 1:
+        parts.append('energy %s' % _amount(armature.panache.energy))
+    return ', '.join(parts) or 'no style'
+
+
+def _amount(number):
+    return ('%.2f' % number).rstrip('0').rstrip('.')
+
+
 def options(armature):
     """The options of a style besides its strengths, for stylize()."""
     found = armature.panache
     return {'sides': sides(armature), 'shape': shape(armature), 'timing': found.timing_where,
-            'gesture_rate': found.gestures}
+            'gesture_rate': found.gestures, 'person': person(armature), 'variety': found.variety}
 
 
 def register():

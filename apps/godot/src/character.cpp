@@ -1,5 +1,7 @@
 #include "character.h"
 
+#include <algorithm>
+
 namespace panache::godot {
 namespace {
 
@@ -18,6 +20,14 @@ std::string style_of(const std::string& property, std::string_view kind) {
   return property.starts_with(kind) ? property.substr(kind.size()) : "";
 }
 
+// The text without the space around it.
+std::string trimmed(const std::string& text) {
+  constexpr const char* kSpace = " \t\r\n";
+  const size_t begin = text.find_first_not_of(kSpace);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
 }  // namespace
 
 // ---- Properties ---------------------------------------------------------------------------------
@@ -31,6 +41,23 @@ bool Character::set(const std::string& property, const ValueData* value) {
   if (const std::string style = style_of(property, kSides); !style.empty()) {
     sides_[style] = to_real(value);
     if (character_) apply_side(style);
+    return true;
+  }
+  if (property == "person") {
+    // Scripts may set a number.
+    person_ = engine.get_type(value) == Type::integer ? std::to_string(to_integer(value))
+                                                      : to_utf8(value);
+    if (character_) apply_person();
+    return true;
+  }
+  if (property == "variety") {
+    variety_ = to_real(value);
+    if (character_) apply_person();
+    return true;
+  }
+  if (property == "shape/energy") {
+    energy_ = to_real(value);
+    if (character_) apply_shape();
     return true;
   }
   if (property == "model_path") {
@@ -67,6 +94,9 @@ std::optional<Value> Character::get(const std::string& property) const {
   if (property == "style_root") return Value(style_root_);
   if (property == "gestures") return Value(gestures_);
   if (property == "gesture_seed") return Value(gesture_seed_);
+  if (property == "person") return Value(person_.c_str());
+  if (property == "variety") return Value(variety_);
+  if (property == "shape/energy") return Value(energy_);
   return std::nullopt;
 }
 
@@ -77,25 +107,27 @@ std::optional<Value> Character::initial(const std::string& property) const {
 const std::vector<Property>& Character::properties() {
   texts_.clear();
   properties_.clear();
-  const auto add = [&](const std::string& name, Type type, const char* hint) {
-    texts_.push_back({Name(name.c_str()), Text(hint), type});
+  const auto add = [&](const std::string& name, Type type, uint32_t hint = kHintNone,
+                       const char* hint_text = "") {
+    texts_.push_back({Name(name.c_str()), Text(hint_text), type, hint});
   };
-  add("model_path", Type::text, "*.safetensors");
-  add("hold_feet", Type::flag, "");
-  add("style_root", Type::flag, "");
-  add("gestures", Type::real, "0,2,0.01");
-  add("gesture_seed", Type::integer, "");
+  add("model_path", Type::text, kHintFile, "*.safetensors");
+  add("hold_feet", Type::flag);
+  add("style_root", Type::flag);
+  add("gestures", Type::real, kHintRange, "0,2,0.01");
+  add("gesture_seed", Type::integer);
+  add("person", Type::text, kHintPlaceholder, "A number or a word");
+  add("variety", Type::real, kHintRange, "0,2,0.01");
+  add("shape/energy", Type::real, kHintRange, "0,2,0.01");
   for (const auto& [kind, range] : {std::pair{kStyles, "-1,2,0.01"}, {kSides, "-1,1,0.01"}}) {
     for (int32_t i = 0; model_ && i < panache_model_style_count(model_.get()); ++i) {
-      add(std::string(kind) + panache_model_style_name(model_.get(), i), Type::real, range);
+      add(std::string(kind) + panache_model_style_name(model_.get(), i), Type::real, kHintRange,
+          range);
     }
   }
   for (PropertyText& text : texts_) {
-    const uint32_t hint = text.type == Type::text   ? kHintFile
-                          : text.type == Type::real ? kHintRange
-                                                    : kHintNone;
-    properties_.push_back({text.type, text.name.get(), shared->no_name.get(), hint, text.hint.get(),
-                           kStoredAndEdited});
+    properties_.push_back({text.type, text.name.get(), shared->no_name.get(), text.hint,
+                           text.hint_text.get(), kStoredAndEdited});
   }
   return properties_;
 }
@@ -103,6 +135,7 @@ const std::vector<Property>& Character::properties() {
 void Character::read_model() {
   model_.reset();
   character_.reset();
+  told_no_persons_ = false;
   if (!model_path_.empty()) {
     std::weak_ptr<panache_model>& known = shared->models[model_path_];
     model_ = known.lock();
@@ -139,6 +172,8 @@ void Character::make_character(const Value& skeleton) {
   character_.reset(made);
   for (const auto& [style, strength] : strengths_) apply_strength(style);
   for (const auto& [style, side] : sides_) apply_side(style);
+  apply_person();
+  apply_shape();
 }
 
 int32_t Character::place_of(const std::string& style) const {
@@ -155,6 +190,25 @@ void Character::apply_strength(const std::string& style) const {
 void Character::apply_side(const std::string& style) const {
   panache_character_set_side(character_.get(), place_of(style),
                              static_cast<float>(sides_.at(style)));
+}
+
+void Character::apply_person() {
+  const std::string person = trimmed(person_);
+  if (panache_model_person_axis_count(model_.get()) == 0) {
+    if (person.empty() || told_no_persons_) return;
+    told_no_persons_ = true;
+  }
+  const double amount = person.empty() ? 0 : std::clamp(variety_, 0.0, 2.0);
+  if (panache_character_set_person(character_.get(), panache_person_seed(person.c_str()), static_cast<float>(amount)) !=
+      PANACHE_OK) {
+    tell(panache_last_error());
+  }
+}
+
+void Character::apply_shape() const {
+  panache_shape shape = PANACHE_SHAPE;
+  shape.energy = static_cast<float>(energy_);
+  panache_character_set_shape(character_.get(), &shape);
 }
 
 // The skeleton's setting says when its modifiers run: 0 in physics frames, else in drawn frames.

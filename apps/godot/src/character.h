@@ -21,8 +21,9 @@ class Character {
   static void register_class();
   static void unregister_class();
 
-  // Properties: model_path, hold_feet, style_root, gestures and gesture_seed, and for each style of
-  // the model styles/NAME, its strength, and sides/NAME, its side.
+  // Properties: model_path, hold_feet, style_root, gestures, gesture_seed, person, variety and
+  // shape/energy, and for each style of the model styles/NAME, its strength, and sides/NAME, its
+  // side.
   bool set(const std::string& property, const ValueData* value);
   std::optional<Value> get(const std::string& property) const;
   std::optional<Value> initial(const std::string& property) const;
@@ -37,8 +38,9 @@ class Character {
   // Backing storage for the engine's list of properties, which points into it.
   struct PropertyText {
     Name name;
-    Text hint;
+    Text hint_text;
     Type type;
+    uint32_t hint;
   };
   struct Destroy {
     void operator()(panache_character* character) const { panache_character_destroy(character); }
@@ -50,6 +52,8 @@ class Character {
   int32_t place_of(const std::string& style) const;
   void apply_strength(const std::string& style) const;
   void apply_side(const std::string& style) const;
+  void apply_person();
+  void apply_shape() const;
   double seconds_of(const Value& skeleton) const;
 
   Object self_;
@@ -57,10 +61,13 @@ class Character {
   bool hold_feet_ = true, style_root_ = false;
   double gestures_ = 1;  // See gesture_rate in panache_character_options.
   int64_t gesture_seed_ = 0;
+  std::string person_;  // A number or a word; empty: nobody.
+  double variety_ = 1, energy_ = 1;
   // By style name, so they can be set before the model.
   std::map<std::string, double> strengths_, sides_;
 
   std::shared_ptr<panache_model> model_;
+  bool told_no_persons_ = false;  // The error that the model has none, which is printed once.
   std::unique_ptr<SkeletonPose> pose_;
   std::unique_ptr<panache_character, Destroy> character_;
   // The skeleton, and the version of its bones, that pose_ and character_ were made for. Also set

@@ -90,7 +90,7 @@ struct Property {
   TextData* hint_text;
   uint32_t usage;
 };
-constexpr uint32_t kHintNone = 0, kHintRange = 1, kHintFile = 13;
+constexpr uint32_t kHintNone = 0, kHintRange = 1, kHintFile = 13, kHintPlaceholder = 20;
 constexpr uint32_t kStoredAndEdited = 2 | 4;
 
 using Virtual = void (*)(void* instance, const void* const* arguments, void* out);

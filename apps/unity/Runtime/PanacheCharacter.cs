@@ -27,12 +27,16 @@ public sealed class StyleShape {
   [Range(0, 2)] public float rightArm = 1;
   [Range(0, 1), Tooltip("How firmly planted feet are held.")] public float footLock = 1;
   [Range(0, 1), Tooltip("How firmly hands keep what they touch.")] public float handContacts = 1;
+  [Range(0, 2), Tooltip("From calm (0) to lively (2): the animation's own movement of torso, head " +
+                        "and arms, without a style, too.")]
+  public float energy = 1;
 
   /// Copies the amounts. Returns whether any of them changed.
   internal bool CopyTo(Shape shape) {
     if (shape.Posture == posture && shape.Dynamics == dynamics && shape.Legs == legs &&
         shape.Torso == torso && shape.LeftArm == leftArm && shape.RightArm == rightArm &&
-        shape.FootLock == footLock && shape.HandContacts == handContacts)
+        shape.FootLock == footLock && shape.HandContacts == handContacts &&
+        shape.Energy == energy)
       return false;
     shape.Posture = posture;
     shape.Dynamics = dynamics;
@@ -42,6 +46,7 @@ public sealed class StyleShape {
     shape.RightArm = rightArm;
     shape.FootLock = footLock;
     shape.HandContacts = handContacts;
+    shape.Energy = energy;
     return true;
   }
 }
@@ -58,6 +63,12 @@ public sealed class PanacheCharacter : MonoBehaviour {
   public TextAsset model;
   [Tooltip("The styles, which add up.")]
   public List<StyleStrength> styles = new List<StyleStrength>();
+  [Tooltip("Who the character moves as, in addition to its styles: a number or a word, each is " +
+           "another person. Empty: nobody.")]
+  public string person = "";
+  [Range(0, 2), Tooltip("How far the person is from the mean of people: 1 as real people differ, " +
+                        "0 not at all.")]
+  public float variety = 1;
   public StyleShape shape = new StyleShape();
   [Tooltip("Planted feet stay where they are. Read when the component is enabled.")]
   public bool holdFeet = true;
@@ -83,6 +94,9 @@ public sealed class PanacheCharacter : MonoBehaviour {
       new Dictionary<string, int>(StringComparer.OrdinalIgnoreCase);
   private readonly HashSet<string> unknown = new HashSet<string>();
   private Shape shaped;
+  private string setPerson;
+  private float setVariety;
+  private bool toldNoPersons;  // The error that the model has none.
 
   /// Sets the strength of a style; adds it to the list if it is not there.
   public void SetStrength(string style, float strength) { EntryOf(style).strength = strength; }
@@ -129,6 +143,9 @@ public sealed class PanacheCharacter : MonoBehaviour {
         GestureSeed = gestureSeed
       });
       shaped = new Shape();
+      setPerson = "";
+      setVariety = 1;
+      toldNoPersons = false;
       wanted = new float[read.Styles.Count];
       set = new float[read.Styles.Count];
       wantedSides = new float[read.Styles.Count];
@@ -148,6 +165,7 @@ public sealed class PanacheCharacter : MonoBehaviour {
   private void LateUpdate() {
     if (character == null) return;
     SetStyles();
+    SetPerson();
     joints.Load(character);
     character.Step(Time.deltaTime);
     joints.Store(character);
@@ -175,6 +193,22 @@ public sealed class PanacheCharacter : MonoBehaviour {
       set[i] = wanted[i];
       character.SetStrength(read.Styles[i], set[i]);
     }
+  }
+
+  private void SetPerson() {
+    if (person == setPerson && variety.Equals(setVariety)) return;
+    setPerson = person;
+    setVariety = variety;
+    if (read.PersonAxes.Count == 0) {
+      if (toldNoPersons || string.IsNullOrWhiteSpace(person)) return;
+      toldNoPersons = true;
+    }
+    Try(PutOnPerson, false);
+  }
+
+  private void PutOnPerson() {
+    if (string.IsNullOrWhiteSpace(person)) character.SetPerson(0, 0);
+    else character.SetPerson(Model.PersonSeed(person.Trim()), Mathf.Clamp(variety, 0, 2));
   }
 
   private void TellUnknown(string style) { Try(() => read.FindStyle(style), false); }

@@ -146,9 +146,7 @@ export function shapeOf(settings: Settings): Partial<Shape> {
 
 /** The person as the library takes it. */
 export function personOf({ person }: Settings): Person {
-  if (!person) return null;
-  const number = Number(person);
-  return /^\d+$/.test(person) && number < 2 ** 32 ? number : person;
+  return person || null;
 }
 
 const kTogether = 500;  // Milliseconds; closer changes, as in a drag, are undone together.
