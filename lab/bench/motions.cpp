@@ -56,7 +56,7 @@ Clip detailed(const Clip& clip) {
   for (int i = 0; i < kFaceJoints; ++i) {
     add("face" + std::to_string(i), joint_of(clip, "head"), {0, 0.05f, 0.08f});
   }
-  const char* const limbs[] = {"leftUpperArm",  "leftLowerArm",  "rightUpperArm", "rightLowerArm",
+  const char* const limbs[] = {"leftUpperArm", "leftLowerArm", "rightUpperArm", "rightLowerArm",
                                "leftUpperLeg", "leftLowerLeg", "rightUpperLeg", "rightLowerLeg"};
   static_assert(std::size(limbs) == kTwists);
   for (const char* limb : limbs) {

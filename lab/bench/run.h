@@ -47,8 +47,8 @@ struct Measurements {
   std::vector<ForwardPass> forward_passes;
   std::vector<OtherNetwork> others;
 
-  std::string model;  // File name.
-  StepTimes steps;                                          // Of the walk.
+  std::string model;                                          // File name.
+  StepTimes steps;                                            // Of the walk.
   std::vector<std::pair<std::string, StepTimes>> hard_steps;  // Of other motions, by name.
   std::vector<CrowdTime> crowds, int8_crowds;    // With the model unchanged, and in int8.
   size_t model_bytes = 0, int8_model_bytes = 0;  // Size of the model file, in float and in int8.

@@ -82,7 +82,9 @@ std::string steps_table(const Measurements& m) {
       {{"one step, " + m.model + ", int8", "p50", "p99", "p99.9", "worst", "cold"},
        {grouped(steps.steps.count()) + " steps", quantile(0.5), quantile(0.99), quantile(0.999),
         us(static_cast<double>(steps.steps.worst()) / 1e3), us(steps.cold / 1e3)}});
-  const auto over_networks = [](const bench::StepTimes& of) { return fixed(of.whole / of.networks, 1); };
+  const auto over_networks = [](const bench::StepTimes& of) {
+    return fixed(of.whole / of.networks, 1);
+  };
   text += "a step of this walk takes " + over_networks(steps) + " times its networks";
   for (const auto& [name, hard] : m.hard_steps) {
     text += "; of a " + name + " on 84 joints " + us(hard.steps.quantile(0.5) / 1e3) + ", " +

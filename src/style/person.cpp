@@ -16,8 +16,7 @@ constexpr const char* kNames = "person_axes";
 
 // The 95 % quantile of the squared length of standard normal vectors (chi-squared), by their size.
 constexpr std::array<float, kMaxPersonAxes> kNearly = {3.841f,  5.991f,  7.815f,  9.488f,  11.070f,
-                                                       12.592f, 14.067f, 15.507f, 16.919f, 18.307f,
-                                                       19.675f, 21.026f};
+                                                       12.592f, 14.067f, 15.507f, 16.919f, 18.307f};
 
 std::vector<std::string> lines_of(std::string_view text) {
   std::vector<std::string> lines;

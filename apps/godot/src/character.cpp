@@ -199,8 +199,8 @@ void Character::apply_person() {
     told_no_persons_ = true;
   }
   const double amount = person.empty() ? 0 : std::clamp(variety_, 0.0, 2.0);
-  if (panache_character_set_person(character_.get(), panache_person_seed(person.c_str()), static_cast<float>(amount)) !=
-      PANACHE_OK) {
+  if (panache_character_set_person(character_.get(), panache_person_seed(person.c_str()),
+                                   static_cast<float>(amount)) != PANACHE_OK) {
     tell(panache_last_error());
   }
 }

@@ -99,9 +99,9 @@ class Model:
         return found.value
 
     def person(self, who: Union[int, str, np.ndarray], amount: float = 1) -> np.ndarray:
-        """The numbers of a person: of a seed (a number or a word; "7" is the number), or given, [person_axes];
-        `amount` times as far from the mean person, 0 to 2. Real people are distributed like
-        standard normal numbers."""
+        """The numbers of a person: of a seed (a number or a word; '7' is the number), or given,
+        [person_axes]; `amount` times as far from the mean person, 0 to 2. Real people are
+        distributed like standard normal numbers."""
         axes = len(self.person_axes)
         if isinstance(who, (str, int, np.integer)):
             seed = (lib.person_seed(utf8(who, 'person')) if isinstance(who, str)

@@ -127,8 +127,8 @@ class Player {
   Shape shape_;
   Timing timing_ = Timing::steps;
   float gesture_rate_ = 1;
-  uint32_t person_ = 0;  // A seed,
-  float variety_ = 0;    // and how far from the mean person.
+  uint32_t person_ = 0;                 // A seed,
+  float variety_ = 0;                   // and how far from the mean person.
   double rate_ = 1, removal_rate_ = 1;  // Rates of the two passes.
 };
 
