@@ -52,6 +52,7 @@ int main() {
   FIELD(shape, right_arm);
   FIELD(shape, foot_lock);
   FIELD(shape, hand_contacts);
+  FIELD(shape, energy);
   STRUCT(input_pose);
   FIELD(input_pose, rotations);
   FIELD(input_pose, translations);
@@ -92,6 +93,7 @@ int main() {
   FIELD(stylize_options, gesture_rate);
   FIELD(stylize_options, gesture_seed);
   FIELD(stylize_options, sides);
+  FIELD(stylize_options, person);
   STRUCT(retarget_options);
   FIELD(retarget_options, struct_size);
   FIELD(retarget_options, hold_feet);
