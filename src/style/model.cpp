@@ -17,17 +17,6 @@ namespace {
 constexpr const char* kFormatVersion = "1";
 constexpr std::string_view kScale = ".scale";  // Of an int8 layer.
 
-// Without streams, which would add all locales of the library to the page's module.
-std::vector<std::string> split_lines(std::string_view text) {
-  std::vector<std::string> lines;
-  while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    lines.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
-
 bool same_in_any_case(std::string_view one, std::string_view other) {
   return std::equal(one.begin(), one.end(), other.begin(), other.end(),
                     [](char a, char b) { return lower_case(a) == lower_case(b); });

@@ -2,6 +2,8 @@
 // Names that model files carry.
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace panache {
 
@@ -9,6 +11,9 @@ namespace panache {
 std::string canonical_joint_list();
 // "6 poses 0.05 s apart", as model files carry it.
 std::string window_description();
+
+// The lines of a list in a model file's metadata.
+std::vector<std::string> split_lines(std::string_view text);
 
 // A remover is a model with styled input and neutral output: its metadata kDirection is kRemove,
 // and each of its styles takes off the style of that name, kAnyStyle an unknown one.

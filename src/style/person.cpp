@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "style/model.h"
+#include "style/names.h"
 
 namespace panache {
 namespace {
@@ -18,16 +19,6 @@ constexpr const char* kNames = "person_axes";
 constexpr std::array<float, kMaxPersonAxes> kNearly = {3.841f,  5.991f,  7.815f,  9.488f,  11.070f,
                                                        12.592f, 14.067f, 15.507f, 16.919f, 18.307f};
 
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines;
-  while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    lines.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
-
 }  // namespace
 
 bool PersonSpace::is_in(const TensorFile& file) {
@@ -39,7 +30,7 @@ Result<PersonSpace> PersonSpace::read(const TensorFile& file, int activations,
                                       const std::string& name) {
   PersonSpace space;
   const auto names = file.metadata.find(kNames);
-  if (names != file.metadata.end()) space.names_ = lines_of(names->second);
+  if (names != file.metadata.end()) space.names_ = split_lines(names->second);
   const size_t axes = space.names_.size();
   if (axes == 0 || axes > kMaxPersonAxes) {
     return Error{name + ": metadata '" + kNames + "' has " + std::to_string(axes) +

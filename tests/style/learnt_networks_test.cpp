@@ -8,28 +8,11 @@
 
 #include "make_learnt.h"
 #include "net/quantize.h"
+#include "read_model.h"
 #include "style/networks.h"
 
 namespace panache {
 namespace {
-
-std::shared_ptr<const Model> read(const TensorFile& file) {
-  const auto model = Model::parse(format_safetensors(file), "m.safetensors");
-  EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().message);
-  return *model;
-}
-
-std::string failure(const TensorFile& file) {
-  const auto model = Model::parse(format_safetensors(file), "m.safetensors");
-  return model.ok() ? "" : model.error().message;
-}
-
-std::vector<float> window_of(uint64_t seed) {
-  std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
-  Random random(seed);
-  for (float& w : window) w = random.normal();
-  return window;
-}
 
 // One built-in style and a learnt one whose gate is open at `rest` = 0.
 TensorFile with_learnt(float rest = 0) {

@@ -11,6 +11,7 @@
 #include "make_clip.h"
 #include "make_persons.h"
 #include "net/quantize.h"
+#include "read_model.h"
 #include "style/crowd.h"
 #include "style/restyle.h"
 
@@ -24,24 +25,6 @@ TensorFile person_file() {
   test::add_gate(file, 1.5f);
   test::add_persons(file);
   return file;
-}
-
-std::shared_ptr<const Model> read(const TensorFile& file) {
-  const auto model = Model::parse(format_safetensors(file), "m.safetensors");
-  EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().message);
-  return *model;
-}
-
-std::string failure(const TensorFile& file) {
-  const auto model = Model::parse(format_safetensors(file), "m.safetensors");
-  return model.ok() ? "" : model.error().message;
-}
-
-std::vector<float> window_of(uint64_t seed) {
-  std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
-  Random random(seed);
-  for (float& w : window) w = random.normal();
-  return window;
 }
 
 class Persons : public testing::Test {

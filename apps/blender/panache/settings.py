@@ -285,7 +285,8 @@ def shape(armature):
 
 def person(armature):
     """The person for stylize(), a number or a word; None: nobody, or the model has no persons."""
-    return armature.panache.person.strip() or None if not model().no_persons else None
+    text = armature.panache.person.strip()
+    return text if text and not model().no_persons else None
 
 
 def person_problem(armature):

@@ -5,7 +5,7 @@ import * as THREE from 'three';
 import type { Panache, Remover } from '../package/index.js';
 import { element, find } from './dom';
 import { bodyGeometry, Mannequin, type Look } from './mannequin';
-import { personOf, type Settings } from './settings';
+import type { Settings } from './settings';
 import type { Source } from './source';
 import type { Wish } from './steering';
 import { applySettings } from './styling';
@@ -63,7 +63,7 @@ export class Crowd {
     const { styles } = this.panache;
     const own = this.#settings.mixed && styles.length > 0
       ? { styles: { [styles[i % styles.length].name]: 1 }, keys: {} } : {};
-    const from = this.#settings.person === '' ? 'crowd' : personOf(this.#settings);
+    const from = this.#settings.person || 'crowd';
     applySettings(this.panache, player, { ...this.#settings, ...own, person: `${from} ${i + 1}` },
       this.#remover);
   }
@@ -84,7 +84,7 @@ export class Crowd {
     const middle = new THREE.Vector3().fromArray(source.player.parts('styled')).setY(0);
     for (const { player, body, slot } of this.#members) {
       const parts = player.parts('styled').slice();
-      // Whoever leaves the place on one side comes in on the other one.
+      // A character that leaves on one side comes in on the other.
       const shift = slot.clone();
       const x = parts[0] + slot.x - middle.x, z = parts[2] + slot.z - middle.z;
       shift.x += wrapped(x, kWide) - x;
