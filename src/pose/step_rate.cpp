@@ -44,7 +44,8 @@ constexpr double kImpossibleRate = 1.4;
 // Too slow: fewer steps than this, and the point is not much further off at 2.5 times the rate.
 constexpr double kSlowRate = 0.28, kSlowStep = 0.4, kSlowMiss = 0.036, kSlowTimes = 1.25;
 constexpr size_t kFastSteps = 4, kSlowSteps = 5;
-// So slow that two steps suffice, as in a short clip whose frames became seconds.
+// So slow that two steps suffice, as in a short clip whose frames became seconds; those that its
+// ends cut off count, and seem faster than they are.
 constexpr double kStoppedRate = 0.08;
 constexpr size_t kStoppedSteps = 2;
 constexpr double kFaster = 2.5, kSlower = 0.4;
@@ -144,7 +145,8 @@ bool is_upright(const Walk& walk, size_t begin, size_t end) {
                      });
 }
 
-Steps find_steps(const Walk& walk, const std::vector<double>& ahead) {
+// `cut`: steps count too that the ends of the clip cut off.
+Steps find_steps(const Walk& walk, const std::vector<double>& ahead, bool cut) {
   struct Extreme {
     size_t frame;
     double value;
@@ -156,15 +158,16 @@ Steps find_steps(const Walk& walk, const std::vector<double>& ahead) {
     if (ahead[f] > high.value) high = {f, ahead[f]};
     if (ahead[f] < low.value) low = {f, ahead[f]};
     if (going >= 0 && high.value - ahead[f] > kTurn) {
-      if (going > 0) extremes.push_back(high);
+      if (going > 0 || cut) extremes.push_back(high);
       going = -1;
       low = {f, ahead[f]};
     } else if (going <= 0 && ahead[f] - low.value > kTurn) {
-      if (going < 0) extremes.push_back(low);
+      if (going < 0 || cut) extremes.push_back(low);
       going = 1;
       high = {f, ahead[f]};
     }
   }
+  if (cut && going != 0) extremes.push_back(going > 0 ? high : low);
   Steps out;
   std::vector<double> frames, sizes;
   for (size_t i = 1; i < extremes.size(); ++i) {
@@ -276,7 +279,9 @@ std::string brief(double value) {
 std::optional<std::string> doubtful_rate(const Clip& clip, const Rig& rig) {
   const Walk walk = read(clip, rig);
   if (walk.bodies.size() < 8 || !(walk.leg > 0)) return std::nullopt;
-  const Steps steps = find_steps(walk, separations(clip, rig, walk));
+  const std::vector<double> ahead = separations(clip, rig, walk);
+  Steps steps = find_steps(walk, ahead, false);
+  if (steps.steps.size() < kStoppedSteps) steps = find_steps(walk, ahead, true);
   if (steps.steps.size() < kStoppedSteps) return std::nullopt;
   const double a_second = 1 / (steps.frames * clip.frame_time);
   const double rate = a_second * std::sqrt(walk.leg / kGravity);

@@ -21,7 +21,7 @@ bool is_lower_arm(const JointName& name) { return is_forearm(name) && !is_twist(
 class BodyCompleter {
  public:
   BodyCompleter(const Clip& clip, std::span<const JointPositions> poses)
-      : tree_(clip.skeleton, poses) {
+      : clip_(clip), tree_(clip.skeleton, poses) {
     for (const Joint& joint : clip.skeleton.joints) has_roles_ |= !joint.role.empty();
     for (const Joint& joint : clip.skeleton.joints) {
       names_.push_back(parse_joint_name(has_roles_ ? joint.role : joint.name));
@@ -117,8 +117,8 @@ class BodyCompleter {
     if (shoulders[0] < 0 || shoulders[1] < 0) return false;
     // Directions in the space of the hips, means of the motion.
     const std::array<int, 3> seen = {hips, shoulders[0], shoulders[1]};
-    const int step = std::max(1, out_.clip.frames / kHipsPoses);
-    const SampledJoints frames(out_.clip, 0, out_.clip.frames, step, seen);
+    const int step = std::max(1, clip_.frames / kHipsPoses);
+    const SampledJoints frames(clip_, 0, clip_.frames, step, seen);
     Vec3d across, up;
     for (int f = 0; f < frames.count(); ++f) {
       const ConstPose world = frames.world(f);
@@ -196,7 +196,8 @@ class BodyCompleter {
 
   const std::vector<Joint>& joints() const { return out_.clip.skeleton.joints; }
 
-  JointTree tree_;  // Of the joints of the file.
+  const Clip& clip_;  // As in the file: out_ may have joints that its frames do not have yet.
+  JointTree tree_;    // Of the joints of the file.
   std::vector<JointName> names_;
   bool has_roles_ = false;
   bool changed_ = false;

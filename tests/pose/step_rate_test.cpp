@@ -23,6 +23,16 @@ TEST(StepRate, a_walk_is_doubted_far_from_its_rate_and_not_near_it) {
   }
 }
 
+TEST(StepRate, two_steps_whose_frames_became_seconds_are_doubted) {
+  for (const double fps : {20.0, 30.0, 60.0}) {
+    const Clip walk = test::walking_clip(static_cast<int>(1.1 * fps), fps);
+    for (const double times : {1 / 20.0, 1 / 60.0}) {
+      EXPECT_NE(doubt(walk, times).find("too slow"), std::string::npos) << times << " at " << fps;
+    }
+    for (const double times : {0.5, 1.0, 2.0}) EXPECT_EQ(doubt(walk, times), "") << times;
+  }
+}
+
 TEST(StepRate, the_message_says_what_was_found_and_the_cure) {
   EXPECT_EQ(
       doubt(test::walking_clip(240), 4),

@@ -170,10 +170,15 @@ TEST(OddRig, an_upper_body_moves_where_it_is) {
   EXPECT_EQ(out.translations, upper.translations);
   EXPECT_NE(out.rotations, upper.rotations);
 
-  const Clip one_leg = without(plain_walk(), {"rightUpperLeg"});
-  const Result<Rig> other = Rig::create(one_leg);
-  ASSERT_TRUE(other.ok()) << other.error().message;
-  EXPECT_TRUE(other->can_move());
+  const std::vector<std::string> right = {"rightUpperLeg"}, half = {"rightUpperLeg", "leftFoot"};
+  for (const std::vector<std::string>& missing : {right, half}) {
+    const Clip one_leg = without(plain_walk(), missing);
+    const Result<Rig> other = Rig::create(one_leg);
+    ASSERT_TRUE(other.ok()) << other.error().message;
+    EXPECT_TRUE(other->can_move());
+    EXPECT_NEAR(other->scale(), 1, 0.3f);
+    EXPECT_EQ(without_change(one_leg, *other).rotations, one_leg.rotations);
+  }
 }
 
 TEST(OddRig, a_layer_of_an_animation_gets_no_more_keys) {
