@@ -19,11 +19,11 @@ inline Clip cut(const Clip& clip, int first, int last) {
 inline Clip cut_cycle(const Clip& clip, int first) {
   const auto frames = [&](double seconds) { return static_cast<int>(seconds / clip.frame_time); };
   Clip best;
-  float least = std::numeric_limits<float>::infinity();
+  float min = std::numeric_limits<float>::infinity();
   for (int last = first + frames(0.6); last <= first + frames(1.6) && last < clip.frames; ++last) {
     Clip cycle = cut(clip, first, last);
     const float gap = measure_seam(cycle, *Rig::create(cycle)).gap;
-    if (gap < least) least = gap, best = std::move(cycle);
+    if (gap < min) min = gap, best = std::move(cycle);
   }
   return best;
 }

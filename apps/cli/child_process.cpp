@@ -29,8 +29,8 @@ constexpr size_t kLargestAnswer = size_t{2} << 30;  // The size limit of any fil
 
 using Clock = std::chrono::steady_clock;
 
-void limit(int what, rlim_t most) {
-  const rlimit bound = {most, most};
+void limit(int what, rlim_t max) {
+  const rlimit bound = {max, max};
   ::setrlimit(what, &bound);
 }
 

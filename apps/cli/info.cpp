@@ -164,10 +164,10 @@ size_t pick_shown(const MotionFile& file, const BodyMotions& body, const std::st
 // The styles recognised in a motion, with a share of at least 0.01.
 std::vector<std::pair<std::string, float>> styles_of(const Clip& clip, const Rig& rig,
                                                      const std::shared_ptr<const Model>& remover) {
-  constexpr float kLeast = 0.01f;
+  constexpr float kMin = 0.01f;
   std::vector<std::pair<std::string, float>> named;
   for (const StyleShare& share : need(recognise_styles(remover, clip, rig))) {
-    if (share.share < kLeast) continue;
+    if (share.share < kMin) continue;
     const bool neutral = share.style < 0;
     named.emplace_back(
         neutral ? "neutral" : remover->styles()[static_cast<size_t>(share.style)].name,

@@ -17,6 +17,7 @@
 #include "model_path.h"
 #include "outputs.h"
 #include "page_server.h"
+#include "person_options.h"
 #include "sides.h"
 #include "style_options.h"
 #include "stop_signal.h"
@@ -35,6 +36,7 @@ struct Options {
   std::vector<std::string> styles, sides;
   std::string model, record;
   panache::LiveOptions time;
+  PersonFlags person;
   ShapeFlags shape;
   RemovalFlags removal;
   double smooth = 0;
@@ -154,6 +156,7 @@ int live(const Options& options) {
   const std::shared_ptr<const Model> model = need(Model::load(path));
   const std::vector<float> strengths = read_styles(options.styles, *model);
   how.stylizer.sides = need(parse_sides(options.sides, *model), kBadUsage);
+  const std::optional<PersonWish> person = read_person_options(options.person, *model);
   const std::optional<Removal> removal = read_removal(options.removal);
   if (removal) how.remover = removal->remover;
   if (auto good = LiveStylizer::check(*model, options.time); !good) {
@@ -181,7 +184,7 @@ int live(const Options& options) {
   VmcRelay relay(std::move(socket), out,
                  {model, how, removal ? removal->style : -1, options.mirror, options.smooth,
                   options.record.empty() ? nullptr : &recording, server ? &view : nullptr},
-                 strengths);
+                 strengths, person);
   if (!options.quiet) {
     print_message("relaying from " + listened_at(in) + " to " + to_string(out) +
                   " until Ctrl-C ends it");
@@ -218,6 +221,7 @@ void add_live(CLI::App& app, int& exit_code) {
              "above 1 exaggerates (-4 to 4). One --style per style")
       ->allow_extra_args(false);
   add_side_option(*verb, options->sides);
+  add_person_options(*verb, options->person);
   add_removal_options(*verb, options->removal);
   add_shape_options(*verb, options->shape);
   add_option(*verb, "--model FILE", options->model,

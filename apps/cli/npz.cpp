@@ -13,20 +13,20 @@ namespace {
 
 // Max unpacked bytes of all members in an archive of `packed` bytes. Motion compresses to a half or
 // a third, a motionless skeleton to less.
-size_t most_unpacked(size_t packed) {
+size_t max_unpacked(size_t packed) {
   return std::min(size_t{1} << 30, std::max(size_t{32} << 20, 20 * packed));
 }
-constexpr zip_int64_t kMostMembers = 1000;
+constexpr zip_int64_t kMaxMembers = 1000;
 
 // The bytes of a member, or slightly more than `most` of them; the size in its header is not
 // trusted.
-Result<std::string> unpack(zip_t* zip, zip_uint64_t which, size_t most, const std::string& place) {
+Result<std::string> unpack(zip_t* zip, zip_uint64_t which, size_t max, const std::string& place) {
   zip_file_t* file = zip_fopen_index(zip, which, 0);
   if (!file) return Error{place + ": cannot be unpacked: " + zip_strerror(zip)};
   std::string out;
   std::vector<char> block(1 << 16);
   zip_int64_t got = 0;
-  while ((got = zip_fread(file, block.data(), block.size())) > 0 && out.size() <= most) {
+  while ((got = zip_fread(file, block.data(), block.size())) > 0 && out.size() <= max) {
     out.append(block.data(), static_cast<size_t>(got));
   }
   const std::string message = got < 0 ? zip_file_strerror(file) : "";
@@ -49,13 +49,13 @@ Result<std::vector<NpzMember>> unpack_all(const std::string& bytes, const std::s
                  ")"};
   }
   const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
-  if (count > kMostMembers) {
-    return Error{path + ": expected at most " + std::to_string(kMostMembers) + " arrays, found " +
+  if (count > kMaxMembers) {
+    return Error{path + ": expected at most " + std::to_string(kMaxMembers) + " arrays, found " +
                  std::to_string(count)};
   }
   std::vector<NpzMember> members;
-  const size_t most = most_unpacked(bytes.size());
-  size_t left = most;
+  const size_t max = max_unpacked(bytes.size());
+  size_t left = max;
   for (zip_int64_t i = 0; i < count; ++i) {
     const auto which = static_cast<zip_uint64_t>(i);
     const char* name = zip_get_name(archive.get(), which, ZIP_FL_ENC_RAW);
@@ -64,7 +64,7 @@ Result<std::vector<NpzMember>> unpack_all(const std::string& bytes, const std::s
         unpack(archive.get(), which, left, path + ": " + known.substr(0, 40));
     if (!unpacked) return unpacked.error();
     if (unpacked->size() > left) {
-      return Error{path + ": expected at most " + std::to_string(most >> 20) +
+      return Error{path + ": expected at most " + std::to_string(max >> 20) +
                    " MB unpacked in a file of " + std::to_string(bytes.size()) +
                    " bytes, found more; save it with numpy.savez, without compression"};
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Options of stylize for persons: --person, --seed and --variety.
+// Options of stylize and live for persons: --person, --seed and --variety.
 
 #include <cstdint>
 #include <optional>
@@ -24,7 +24,7 @@ struct PersonFlags {
 // `flags` must outlive the verb.
 void add_person_options(CLI::App& verb, PersonFlags& flags);
 
-// The persons to put on files.
+// The persons to put on files, or on senders, by their order from 1 on instead of a file.
 struct PersonWish {
   std::string given;                     // As typed: "7", "mara", "random" or "0.5,-1,...".
   std::optional<PersonNumbers> numbers;  // If these were given.

@@ -74,7 +74,7 @@ GateReport report_gate(std::span<const float> gates) {
   for (const float open : gates) {
     const double gate = static_cast<double>(open);
     report.mean += gate;
-    report.least = std::min(report.least, gate);
+    report.min = std::min(report.min, gate);
     report.eased += gate < 0.5;
   }
   report.mean /= static_cast<double>(gates.size());
@@ -83,7 +83,7 @@ GateReport report_gate(std::span<const float> gates) {
 }
 
 std::string describe(const GateReport& gate) {
-  return "gate " + fixed(gate.mean, 2) + " (least " + fixed(gate.least, 2) + "; " +
+  return "gate " + fixed(gate.mean, 2) + " (least " + fixed(gate.min, 2) + "; " +
          fixed(100 * gate.eased, 0) + " % of frames eased to the mean posture)";
 }
 
@@ -95,7 +95,7 @@ std::string describe_eased(const GateReport& gate) {
 
 Json to_json(const GateReport& gate) {
   return {
-      {"mean", rounded(gate.mean)}, {"least", rounded(gate.least)}, {"eased", rounded(gate.eased)}};
+      {"mean", rounded(gate.mean)}, {"least", rounded(gate.min)}, {"eased", rounded(gate.eased)}};
 }
 
 }  // namespace panache::cli

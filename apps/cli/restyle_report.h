@@ -15,7 +15,7 @@ Json to_json(const RestyleFacts& facts);
 
 // How far a clip's style was reduced to the mean posture; see Stylizer::gate().
 struct GateReport {
-  double mean = 0, least = 1;
+  double mean = 0, min = 1;
   double eased = 0;  // The share of frames that got mostly the mean posture.
 };
 

@@ -43,8 +43,12 @@ int VmcLatencies::quantile_us(double share) const {
 }
 
 VmcRelay::VmcRelay(UdpSocket socket, const sockaddr_in& to, VmcStyling how,
-                   std::vector<float> strengths)
-    : socket_(std::move(socket)), to_(to), how_(std::move(how)), strengths_(std::move(strengths)) {
+                   std::vector<float> strengths, std::optional<PersonWish> person)
+    : socket_(std::move(socket)),
+      to_(to),
+      how_(std::move(how)),
+      strengths_(std::move(strengths)),
+      person_(std::move(person)) {
   senders_.reserve(kMaxSenders);
 }
 
@@ -126,6 +130,15 @@ void VmcRelay::apply_side(const VmcMessage& message) {
   for (Sender& sender : senders_) sender.character.set_side(*style, *side);
 }
 
+VmcCharacter VmcRelay::make_character() {
+  if (person_) {
+    const std::string sender = std::to_string(met_ + 1);
+    how_.options.stylizer.person = person_->numbers_for(sender, *how_.model);
+    note_ = "sender " + sender + " moves as " + person_->describe(sender);
+  }
+  return VmcCharacter(how_);
+}
+
 VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
   for (Sender& sender : senders_) {
     if (same_address(sender.address, datagram.sender)) return &sender;
@@ -139,7 +152,7 @@ VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
     send_rest(*silent);
     senders_.erase(silent);
   }
-  senders_.push_back({datagram.sender, datagram.received, true, VmcCharacter(how_)});
+  senders_.push_back({datagram.sender, datagram.received, true, make_character()});
   ++met_;
   return &senders_.back();
 }

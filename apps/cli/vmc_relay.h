@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "person_options.h"
 #include "vmc_character.h"
 #include "vmc_socket.h"
 
@@ -36,8 +38,10 @@ struct VmcCounts {
 
 class VmcRelay {
  public:
-  // strengths: one per style of the model.
-  VmcRelay(UdpSocket socket, const sockaddr_in& to, VmcStyling how, std::vector<float> strengths);
+  // strengths: one per style of the model. `person`: of the senders; a random one is another one
+  // for each, by their order.
+  VmcRelay(UdpSocket socket, const sockaddr_in& to, VmcStyling how, std::vector<float> strengths,
+           std::optional<PersonWish> person);
 
   // Waits briefly for datagrams and sends those that are ready.
   void run_once();
@@ -64,6 +68,7 @@ class VmcRelay {
   void take(Datagram datagram);
   void apply_command(const VmcMessage& message);
   void apply_side(const VmcMessage& message);
+  VmcCharacter make_character();
   // Null if the sender is new and `meet` is false.
   Sender* sender_of(const Datagram& datagram, bool meet);
   // Sends all held datagrams of a sender, even of an incomplete frame.
@@ -75,6 +80,7 @@ class VmcRelay {
   sockaddr_in to_;
   VmcStyling how_;
   std::vector<float> strengths_;  // [styles]
+  std::optional<PersonWish> person_;
   std::vector<Sender> senders_;
   size_t met_ = 0;
   uint32_t lost_before_ = 0;

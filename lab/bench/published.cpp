@@ -32,9 +32,9 @@ void blend(std::span<const float> shares, const Numbers& set_numbers, std::span<
 }
 
 void softmax(std::span<float> values) {
-  const float most = *std::max_element(values.begin(), values.end());
+  const float max = *std::max_element(values.begin(), values.end());
   float total = 0;
-  for (float& v : values) total += v = std::exp(v - most);
+  for (float& v : values) total += v = std::exp(v - max);
   for (float& v : values) v /= total;
 }
 

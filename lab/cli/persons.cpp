@@ -27,37 +27,16 @@ std::vector<TestInput> inputs_of(const std::vector<std::string>& files) {
   return need(load_inputs(rows));
 }
 
-double quantile(std::vector<double> values, double q) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? kNotMeasured
-                        : values[static_cast<size_t>(q * double(values.size() - 1) + 0.5)];
-}
-
 std::string describe(const PersonSpread& spread) {
   return fixed(spread.median_cm, 2) + " cm apart, 90 % " + fixed(spread.p90_cm, 2);
 }
 
-void print_others(const std::string& what, const std::vector<OodRow>& rows) {
-  std::vector<double> jerk, beyond, sliding, distance, contacts;
-  int jumps = 0;
-  for (const OodRow& row : rows) {
-    if (row.jerk_ratio == row.jerk_ratio) jerk.push_back(row.jerk_ratio);
-    beyond.push_back(row.beyond_limits);
-    sliding.push_back(row.skating_ratio - row.input_skating_ratio);
-    distance.push_back(row.distance_cm);
-    jumps += row.jumps;
-  }
-  double limits = 0, more = 0, cm = 0;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    limits += beyond[i] / double(rows.size());
-    more += sliding[i] / double(rows.size());
-    cm += distance[i] / double(rows.size());
-  }
-  print(what + ": " + plural(rows.size(), "clip") + ", jerk / input " +
-        fixed(quantile(jerk, 0.5), 2) + ", 90 % " + fixed(quantile(jerk, 0.9), 2) +
-        "; beyond limits " + fixed(100 * limits, 2) + " % of frames; jumps " +
-        std::to_string(jumps) + "; sliding " + fixed(100 * more, 1) + " % more; " + fixed(cm, 1) +
-        " cm from the input\n");
+void print_changes(const std::string& what, const std::vector<OodRow>& rows) {
+  const ChangeSummary of = summarize_changes(rows);
+  print(what + ": " + plural(of.clips, "clip") + ", jerk / input " + fixed(of.jerk_median, 2) +
+        ", 90 % " + fixed(of.jerk_p90, 2) + "; beyond limits " + fixed(100 * of.beyond_limits, 2) +
+        " % of frames; jumps " + fixed(of.jumps, 3) + " a clip; sliding " +
+        fixed(100 * of.more_sliding, 1) + " % more; " + fixed(of.cm, 1) + " cm from the input\n");
 }
 
 int measure(const Options& options) {
@@ -92,8 +71,8 @@ int measure(const Options& options) {
     files.insert(files.end(), found.begin(), found.end());
   }
   const std::vector<TestInput> inputs = inputs_of(files);
-  print_others("persons on other motion",
-               need(measure_persons_on(inputs, model, options.other_seeds, options.variety)));
+  print_changes("persons on other motion",
+                need(measure_persons_on(inputs, model, options.other_seeds, options.variety)));
   // What the styles do there.
   std::vector<OodRow> styled;
   for (const TestInput& input : inputs) {
@@ -102,7 +81,7 @@ int measure(const Options& options) {
       styled.push_back(compare_ood(input.take, take));
     }
   }
-  print_others("styles on other motion", styled);
+  print_changes("styles on other motion", styled);
   return kDone;
 }
 

@@ -1,5 +1,6 @@
 #include "eval/evaluate.h"
 
+#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -10,6 +11,7 @@
 #include "eval/disturbances.h"
 #include "eval/motion_metrics.h"
 #include "eval/ood.h"
+#include "eval/persons.h"
 #include "eval/prediction.h"
 #include "eval/report_numbers.h"
 #include "eval/style_judges.h"
@@ -17,6 +19,7 @@
 #include "eval/systems/model_system.h"
 #include "eval/systems/recorded.h"
 #include "eval/walker_walks.h"
+#include "train/persons.h"
 
 namespace panache {
 namespace {
@@ -105,6 +108,56 @@ Result<std::vector<PredictionRow>> evaluate_prediction(const std::shared_ptr<con
   return measure_prediction(model, takes);
 }
 
+// Persons on a walk of each person without styles and on one of the walker, on the neutral test
+// takes in their performers' styles, and on out-of-distribution motion. Nothing where too few
+// people walk.
+Result<std::optional<PersonsReport>> evaluate_persons(const std::shared_ptr<const Model>& model,
+                                                      const TestSet& test_set,
+                                                      const EvaluateOptions& options) {
+  constexpr int kSeeds = 20, kStyledSeeds = 10, kOtherSeeds = 3;
+  std::vector<Take> neutral;
+  for (const std::vector<Take>* part : {&test_set.training.takes, &test_set.training.unlabelled}) {
+    std::ranges::copy_if(*part, std::back_inserter(neutral),
+                         [](const Take& take) { return take.row.neutral; });
+  }
+  std::vector<TestInput> walks;
+  for (const TestInput& walk : test_set.others) {
+    if (std::ranges::none_of(walks, [&](const TestInput& other) {
+          return person_of(other.take) == person_of(walk.take);
+        })) {
+      walks.push_back(walk);
+    }
+  }
+  if (!test_set.walker.empty()) walks.push_back(test_set.walker.front());
+  const Result<PersonsMeasure> measure = PersonsMeasure::create(neutral, std::move(walks));
+  if (!measure) return std::optional<PersonsReport>();
+  PersonsReport report;
+  report.real = measure->real();
+  const Result<SeedPersons> seeds = measure->measure(model, kSeeds);
+  if (!seeds) return seeds.error();
+  report.seeds = *seeds;
+
+  std::vector<std::vector<std::string>> styles;
+  for (const TestInput& input : test_set.inputs) {
+    std::ranges::copy_if(
+        test_set.styles, std::back_inserter(styles.emplace_back()),
+        [&](const std::string& style) { return test_set.is_shown(style, input.take.row.set); });
+  }
+  const Result<StyledPersons> styled =
+      measure_styled_persons(test_set.inputs, styles, test_set.performers, model, kStyledSeeds);
+  if (!styled) return styled.error();
+  report.styled = *styled;
+
+  std::vector<ManifestRow> rows;
+  for (const std::string& file : options.ood) rows.emplace_back().path = file;
+  const Result<std::vector<TestInput>> others = load_inputs(rows);
+  if (!others) return others.error();
+  const Result<std::vector<OodRow>> changes = measure_persons_on(*others, model, kOtherSeeds);
+  if (!changes) return changes.error();
+  report.others = summarize_changes(*changes);
+  return std::optional(report);
+}
+
 using Systems = std::vector<std::unique_ptr<System>>;
 
 // The inputs and styles that recorded outputs may have.
@@ -156,10 +209,17 @@ Result<SystemReport> judge_in_every_way(const System& system, const TestSet& tes
     if (!ood) return ood.error();
     report->ood = *std::move(ood);
   }
-  if (const auto model = system.predicting_model()) {
+  const std::shared_ptr<const Model> model = system.model();
+  if (model && model->predictor()) {
     Result<std::vector<PredictionRow>> prediction = evaluate_prediction(model, test_set, options);
     if (!prediction) return prediction.error();
     report->prediction = *std::move(prediction);
+  }
+  if (model && model->persons()) {
+    Progress progress("persons of " + system.name());
+    Result<std::optional<PersonsReport>> persons = evaluate_persons(model, test_set, options);
+    if (!persons) return persons.error();
+    report->persons = *std::move(persons);
   }
   const SystemFacts facts = system.facts();
   report->recipe = facts.recipe;

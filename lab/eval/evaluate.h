@@ -72,6 +72,9 @@ struct TestSet {
   PerformerJudges performers;
   std::vector<std::string> styles;  // With real test takes, in order.
   double units_per_metre = 1;       // Of the first test file, for the unit of CC and SC++.
+
+  // Whether a real test take of this set shows the style: each set has its own neutral.
+  bool is_shown(const std::string& style, int set) const;
 };
 
 // The training data of the systems that models are compared with.

@@ -55,14 +55,6 @@ std::vector<std::string> common_styles(const System& system, const TestSet& test
   return common;
 }
 
-// Whether a real test take of the input's own set shows the style: each set has its own neutral.
-bool is_shown(const std::string& style, const TestInput& input, const TestSet& test_set) {
-  return std::any_of(test_set.evaluator.test().begin(), test_set.evaluator.test().end(),
-                     [&](const Take& take) {
-                       return take.row.style == style && take.row.set == input.take.row.set;
-                     });
-}
-
 std::vector<Job> jobs_at(const System& system, const std::vector<std::string>& styles,
                          double strength, const TestSet& test_set,
                          const std::vector<std::string>& contents) {
@@ -74,7 +66,7 @@ std::vector<Job> jobs_at(const System& system, const std::vector<std::string>& s
       continue;
     }
     for (const std::string& style : styles) {
-      if (!is_shown(style, test_set.inputs[i], test_set)) continue;
+      if (!test_set.is_shown(style, test_set.inputs[i].take.row.set)) continue;
       const StyleRequest request{style, {{style, static_cast<float>(strength)}}};
       if (system.can_run(test_set.inputs[i], request))
         jobs.push_back({static_cast<int>(i), request});
@@ -121,7 +113,8 @@ Result<std::optional<MixReport>> evaluate_mix(const System& system, const TestSe
     std::vector<Job> jobs;
     for (size_t i = 0; i < test_set.inputs.size(); ++i) {
       const TestInput& input = test_set.inputs[i];
-      if (!is_shown(first, input, test_set) || !is_shown(second, input, test_set)) continue;
+      const int set = input.take.row.set;
+      if (!test_set.is_shown(first, set) || !test_set.is_shown(second, set)) continue;
       const StyleRequest request{
           first, {{first, static_cast<float>(1 - share)}, {second, static_cast<float>(share)}}};
       if (system.can_run(test_set.inputs[i], request))
@@ -224,6 +217,12 @@ Result<void> judge_strengths(const System& system, const TestSet& test_set,
 }
 
 }  // namespace
+
+bool TestSet::is_shown(const std::string& style, int set) const {
+  return std::ranges::any_of(evaluator.test(), [&](const Take& take) {
+    return take.row.style == style && take.row.set == set;
+  });
+}
 
 Result<ContentsEvaluation> evaluate_contents(const System& system, const TestSet& test_set,
                                              const std::vector<std::string>& contents) {

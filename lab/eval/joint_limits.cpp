@@ -30,9 +30,9 @@ Vec3 seen_in(const Frame& frame, Vec3 v) {
 // through the other one is beyond by the shorter way.
 float hinge_beyond(Vec3 upper, Vec3 lower, const Hinge& hinge) {
   const Bend bend = bend_of(upper, lower, hinge);
-  const float flexed = bend.angle - hinge.most;
+  const float flexed = bend.angle - hinge.max;
   if (!(bend.wrong > 0)) return flexed;
-  const float through = 2 * std::numbers::pi_v<float> - bend.angle - hinge.most;
+  const float through = 2 * std::numbers::pi_v<float> - bend.angle - hinge.max;
   return std::max(flexed, std::min(bend.wrong - hinge.back - kRangeMargin, through));
 }
 
@@ -54,7 +54,7 @@ class Inspection {
       note(kUpperArms[side], swing_beyond(upper, kShoulderSwings));
       note(kLowerArms[side], upper.y < kOverheadArm
                                  ? hinge_beyond(upper, lower, kElbowHinge)
-                                 : bend_of(upper, lower, kElbowHinge).angle - kElbowHinge.most);
+                                 : bend_of(upper, lower, kElbowHinge).angle - kElbowHinge.max);
       const LegBeyond leg = this->leg(side);
       note(kUpperLegs[side], in_radians(leg.thigh));
       note(kLowerLegs[side], in_radians(leg.knee));

@@ -10,7 +10,9 @@
 
 #include "base/parallel.h"
 #include "eval/discriminant.h"
+#include "eval/report_numbers.h"
 #include "learn/learn_person.h"
+#include "eval/report_ood.h"
 #include "style/restyle.h"
 #include "train/persons.h"
 
@@ -49,12 +51,6 @@ double distance_cm(const HumanPositions& a, const HumanPositions& b) {
   return 100 * sum / kHumanJoints;
 }
 
-double quantile_of(std::vector<double> values, double q) {
-  if (values.empty()) return kNotMeasured;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
-}
-
 void add_distances(const std::vector<HumanPositions>& poses, std::vector<double>& out) {
   for (size_t a = 0; a < poses.size(); ++a) {
     for (size_t b = 0; b < a; ++b) out.push_back(distance_cm(poses[a], poses[b]));
@@ -62,7 +58,7 @@ void add_distances(const std::vector<HumanPositions>& poses, std::vector<double>
 }
 
 PersonSpread spread_of(const std::vector<double>& distances) {
-  return {quantile_of(distances, 0.5), quantile_of(distances, 0.9)};
+  return {quantile(distances, 0.5), quantile(distances, 0.9)};
 }
 
 // Plain walks: other ones differ by more than the person.
@@ -147,7 +143,7 @@ Result<PersonsMeasure> PersonsMeasure::create(const std::vector<Take>& neutral,
   add_distances(means, between);
   out.real_.people = means.size();
   out.real_.spread = spread_of(between);
-  out.real_.own_cm = quantile_of(own, 0.5);
+  out.real_.own_cm = quantile(own, 0.5);
   out.real_.told_of = test.size();
   if (test.size() > 1) out.real_.told = told(training, labels, test, expected);
 
@@ -286,6 +282,58 @@ Result<std::vector<OodRow>> measure_persons_on(const std::vector<TestInput>& inp
     out.push_back(std::move(*row).value());
   }
   return out;
+}
+
+ChangeSummary summarize_changes(const std::vector<OodRow>& rows) {
+  ChangeSummary out;
+  out.clips = rows.size();
+  const std::vector<double> jerk = values_of(rows, &OodRow::jerk_ratio);
+  out.jerk_median = quantile(jerk, 0.5);
+  out.jerk_p90 = quantile(jerk, 0.9);
+  out.beyond_limits = finite_mean(values_of(rows, &OodRow::beyond_limits));
+  out.more_sliding = finite_mean(values_of(rows, &OodRow::skating_ratio)) -
+                     finite_mean(values_of(rows, &OodRow::input_skating_ratio));
+  out.cm = finite_mean(values_of(rows, &OodRow::distance_cm));
+  std::vector<double> jumps;
+  for (const OodRow& row : rows) jumps.push_back(row.jumps);
+  out.jumps = finite_mean(jumps);
+  return out;
+}
+
+Result<StyledPersons> measure_styled_persons(const std::vector<TestInput>& neutral,
+                                             const std::vector<std::vector<std::string>>& styles,
+                                             const PerformerJudges& judges,
+                                             const std::shared_ptr<const Model>& model, int seeds) {
+  struct Job {
+    size_t input;
+    std::string style;
+    int index, seed;
+  };
+  std::vector<Job> jobs;  // Of each style, the one without a person comes first.
+  for (size_t i = 0; i < neutral.size(); ++i) {
+    for (const std::string& style : styles[i]) {
+      const Result<int> index = model->find_style(style);
+      if (!index) continue;
+      for (int seed = 0; seed <= seeds; ++seed) {
+        jobs.push_back({i, style, *index, seed == 0 ? -1 : seed});
+      }
+    }
+  }
+  std::vector<std::optional<Result<Take>>> played(jobs.size());
+  parallel_for(static_cast<int>(jobs.size()), [&](int i) {
+    const Job& job = jobs[static_cast<size_t>(i)];
+    played[i] = play_person(neutral[job.input], model, job.seed, 1, job.index);
+  });
+  std::vector<Take> with, without;
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    if (!*played[i]) return played[i]->error();
+    Take& take = (jobs[i].seed < 0 ? without : with).emplace_back(std::move(*played[i]).value());
+    take.row.style = jobs[i].style;
+    take.row.neutral = false;
+  }
+  const ClipSummary told = summarize_clips(judges.judge(with));
+  return StyledPersons{told.clips, told.recognised,
+                       summarize_clips(judges.judge(without)).recognised};
 }
 
 }  // namespace panache

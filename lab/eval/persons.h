@@ -7,45 +7,16 @@
 #include <vector>
 
 #include "base/result.h"
-#include "eval/metrics.h"
 #include "eval/ood.h"
+#include "eval/performer_judges.h"
+#include "eval/report_persons.h"
 #include "eval/test_input.h"
 #include "learn/neutral_bank.h"
 #include "style/model.h"
 
 namespace panache {
 
-// How far people are apart: distances between the mean poses of pairs of them, the mean over the
-// joints, cm.
-struct PersonSpread {
-  double median_cm = kNotMeasured, p90_cm = kNotMeasured;
-};
-
-struct RealPeople {
-  size_t people = 0;
-  PersonSpread spread;
-  double own_cm = kNotMeasured;  // The same between two takes of one person, median.
-  // A classifier trained on all but the last walk of each person tells the person on that.
-  size_t told_of = 0;
-  double told = kNotMeasured;
-  double kept = kNotMeasured;  // Share of the variance of mean poses that six numbers carry.
-};
-
-struct SeedPersons {
-  size_t seeds = 0, walks = 0;
-  PersonSpread spread;  // On one walk.
-  // A classifier trained on the seeds' other walks tells the seed on each.
-  double told = kNotMeasured;
-  // Share outside the ellipsoid that has 95 % of real people, by the six numbers that carry most of
-  // what differs between their mean poses.
-  double outside = kNotMeasured;
-};
-
-struct PersonsReport {
-  RealPeople real;
-  SeedPersons seeds;
-  std::vector<OodRow> others;  // Every seed on every other motion; `style` is the seed.
-};
+ChangeSummary summarize_changes(const std::vector<OodRow>& rows);
 
 class PersonsMeasure {
  public:
@@ -77,6 +48,12 @@ Result<std::vector<double>> measure_retelling(const std::shared_ptr<const Model>
 Result<std::vector<OodRow>> measure_persons_on(const std::vector<TestInput>& inputs,
                                                const std::shared_ptr<const Model>& model, int seeds,
                                                float variety = 1);
+
+// `styles`: of the neutral take of the same index, those to be judged; persons of `seeds` seeds.
+Result<StyledPersons> measure_styled_persons(const std::vector<TestInput>& neutral,
+                                             const std::vector<std::vector<std::string>>& styles,
+                                             const PerformerJudges& judges,
+                                             const std::shared_ptr<const Model>& model, int seeds);
 
 // The motion of an input as the person of a seed, in the input's own time; with a style at strength
 // 1 if `style` is one of the model's, and then without a person for seed -1.

@@ -15,6 +15,7 @@
 #include "eval/prediction.h"
 #include "eval/removal.h"
 #include "eval/report_ood.h"
+#include "eval/report_persons.h"
 #include "pose/contacts.h"
 #include "draw/strip.h"
 
@@ -61,6 +62,7 @@ struct SystemReport {
   std::vector<OodRow> ood;
   std::vector<DisturbanceRow> disturbances;
   std::vector<PredictionRow> prediction;        // Empty if the model has no predictor.
+  std::optional<PersonsReport> persons;         // If the model has them.
   double cc = kNotMeasured, sc = kNotMeasured;  // CC and SC++ in file units.
   double bone_length_error_cm = kNotMeasured;   // Largest change of a bone's length.
   double step_us = kNotMeasured;                // CPU time of one step.

@@ -336,6 +336,35 @@ Json prediction_json(const std::vector<PredictionRow>& rows) {
   return out;
 }
 
+Json persons_json(const PersonsReport& persons) {
+  const auto spread = [](const PersonSpread& of) {
+    return Json{{"median_cm", number(of.median_cm)}, {"p90_cm", number(of.p90_cm)}};
+  };
+  Json out;
+  out["real"] = spread(persons.real.spread);
+  out["real"].update({{"people", persons.real.people},
+                      {"own_cm", number(persons.real.own_cm)},
+                      {"told", number(persons.real.told)},
+                      {"told_of", persons.real.told_of},
+                      {"kept", number(persons.real.kept)}});
+  out["seeds"] = spread(persons.seeds.spread);
+  out["seeds"].update({{"seeds", persons.seeds.seeds},
+                       {"walks", persons.seeds.walks},
+                       {"told", number(persons.seeds.told)},
+                       {"outside", number(persons.seeds.outside)}});
+  out["styled"] = {{"clips", persons.styled.clips},
+                   {"told", number(persons.styled.told)},
+                   {"told_without", number(persons.styled.told_without)}};
+  out["others"] = {{"clips", persons.others.clips},
+                   {"jerk_median", number(persons.others.jerk_median)},
+                   {"jerk_p90", number(persons.others.jerk_p90)},
+                   {"beyond_limits", number(persons.others.beyond_limits)},
+                   {"jumps", number(persons.others.jumps)},
+                   {"more_sliding", number(persons.others.more_sliding)},
+                   {"cm", number(persons.others.cm)}};
+  return out;
+}
+
 // The intervals of frames, [first, end), in which a foot is planted.
 Json planted_json(const std::vector<FootContacts>& contacts, int foot) {
   Json out = Json::array();
@@ -400,6 +429,7 @@ Json system_json(const SystemReport& system, const Report& report) {
   out["disturbances"] = disturbances_json(system.disturbances);
   out["arrival"] = arrival_json(system.arrival);
   out["foresight"] = prediction_json(system.prediction);
+  out["persons"] = system.persons ? persons_json(*system.persons) : Json(nullptr);
   out["cc"] = number(system.cc);
   out["sc"] = number(system.sc);
   out["bone_length_error_cm"] = number(system.bone_length_error_cm);

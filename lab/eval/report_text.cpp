@@ -321,6 +321,25 @@ std::string prediction(const Json& contents) {
   return table("content", groups, rows);
 }
 
+std::string persons(const Json& of) {
+  if (of.is_null()) return "";
+  return table("people",
+               {{"apart, cm", {{"median", "/median_cm", 2}, {"90 %", "/p90_cm", 2}}},
+                {"", {{"told", "/told", 3}}},
+                {"", {{"outside", "/outside", 3}}}},
+               {{"real", of["real"]}, {"seeds", of["seeds"]}}) +
+         "\n" +
+         table("seeds",
+               {{"styles told",
+                 {{"with a person", "/styled/told", 3}, {"without", "/styled/told_without", 3}}},
+                {"on other motion",
+                 {{"jerk", "/others/jerk_median", 2},
+                  {"90 %", "/others/jerk_p90", 2},
+                  {"beyond limits", "/others/beyond_limits", 4},
+                  {"jumps", "/others/jumps", 3}}}},
+               {{"all", of}});
+}
+
 std::string removal_text(const Json& removal) {
   const auto rows_of = [&](const std::vector<std::pair<std::string, const char*>>& names) {
     NamedRows rows;
@@ -405,6 +424,9 @@ std::string report_text(const Report& of) {
   for (const auto& [name, system] : report["systems"].items()) {
     text += titled(cut_text("Input prediction, constant velocity, held: " + name, kTextWidth),
                    prediction(system["foresight"]));
+  }
+  for (const auto& [name, system] : report["systems"].items()) {
+    text += titled(cut_text("Persons: " + name, kTextWidth), persons(system["persons"]));
   }
   return text;
 }

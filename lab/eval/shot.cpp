@@ -63,11 +63,11 @@ float turn_deg(const Body& from, const Body& to, int side) {
 // The distance of two segments, sampled; metres.
 float distance(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   constexpr int kSamples = 16;
-  float least = length(from_line(a, c, d));
+  float min = length(from_line(a, c, d));
   for (int i = 1; i <= kSamples; ++i) {
-    least = std::min(least, length(from_line(lerp(a, b, static_cast<float>(i) / kSamples), c, d)));
+    min = std::min(min, length(from_line(lerp(a, b, static_cast<float>(i) / kSamples), c, d)));
   }
-  return least;
+  return min;
 }
 
 // The penetration depth of each pair of capsules, metres; negative if they are apart.
@@ -109,9 +109,9 @@ ShotValues measure_shot(const Take& input, const Take& output) {
     const auto change = [&](HumanJoint joint) {
       return 100 * (is[index(joint)].y - was[index(joint)].y);
     };
-    const auto between = [&](HumanJoint a, HumanJoint b, float most, ShotMeasure measure) {
+    const auto between = [&](HumanJoint a, HumanJoint b, float max, ShotMeasure measure) {
       const float near = length(was[index(a)] - was[index(b)]);
-      if (near < most) add(measure, 100 * std::abs(length(is[index(a)] - is[index(b)]) - near));
+      if (near < max) add(measure, 100 * std::abs(length(is[index(a)] - is[index(b)]) - near));
     };
     const bool hips_rest = rests(from, f, hips);
     const bool seated = hips_rest && (was[index(hips)].y < kSeat || beyond_feet(was) > kBeyondFeet);

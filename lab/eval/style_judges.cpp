@@ -117,8 +117,8 @@ OodVerdict StyleJudges::recognise(const Take& take, const std::string& wanted) c
   verdict.style_robust = share_of(probabilities, verdict.style);
   verdict.style_lda = share_of(scores, verdict.style);
   // Limits the weight of a single window.
-  constexpr double kLeastProbability = 1e-4;
-  verdict.robust_scores = means_of((probabilities + kLeastProbability).log(), styles_.size());
+  constexpr double kMinProbability = 1e-4;
+  verdict.robust_scores = means_of((probabilities + kMinProbability).log(), styles_.size());
   verdict.lda_scores = means_of(scores, styles_.size());
   return verdict;
 }

@@ -86,8 +86,8 @@ class System {
 
   // CPU time of one step of one character, microseconds; NaN if it has no steps.
   virtual double step_us(const TestInput& input) const;
-  // The model with its input predictor, or null.
-  virtual std::shared_ptr<const Model> predicting_model() const { return nullptr; }
+  // The model that it runs, or null.
+  virtual std::shared_ptr<const Model> model() const { return nullptr; }
 
  private:
   std::string name_;

@@ -42,8 +42,8 @@ Tensor swing_beyond(const Tensor& now, double rest, const SwingRange& range) {
     return (v.relu() / plus + (-v).relu() / minus) / across;
   };
   const Tensor ahead = share(z, range.front, range.back), side = share(x, range.out, range.in);
-  const Tensor most = 1 / root_of(ahead.square() + side.square());
-  return kDegrees * torch::atan2(across, rest * y) - most;
+  const Tensor max = 1 / root_of(ahead.square() + side.square());
+  return kDegrees * torch::atan2(across, rest * y) - max;
 }
 
 // How far hinges between two limbs bend beyond their range. `ahead`: 1 if the lower limb bends
@@ -62,7 +62,7 @@ Tensor hinge_beyond(const Tensor& upper, const Tensor& lower, float ahead,
   const Tensor angle = kDegrees * torch::atan2(sine, cosine);
   const Tensor t = ((-along(bend, to) / sine - kWrongFrom) / (kWrongTo - kWrongFrom)).clamp(0, 1);
   const Tensor wrong = angle * t * t * (3 - 2 * t);
-  return torch::maximum(angle - range.most, wrong - range.back);
+  return torch::maximum(angle - range.max, wrong - range.back);
 }
 
 // Excess over the ranges of all ten joints, degrees. [rows][21][3] -> [rows][10]

@@ -34,7 +34,7 @@ struct GaitRules {
   // Penalties of the terms 1, u, u^2, turn, turn^2, acceleration: the squared change per term
   // weighs as much as the squared error of that many frames.
   std::array<double, kTerms> penalties;
-  float least_stance;  // Of a foot at the reference speed, radians of the cycle.
+  float min_stance;  // Of a foot at the reference speed, radians of the cycle.
 };
 // The speeds of the walks are too similar to fit curvature; the runs do not turn at all.
 constexpr GaitRules kWalkRules = {1.1f, 0.6f, 1.5f, {1e-3, 1, 1e5, 30, 30, 100}, 3.8f};
@@ -278,8 +278,8 @@ void fit_contacts(const std::vector<GaitTake>& takes, const GaitRules& rules, Ga
   gait.lifts = {static_cast<float>(off[0]), static_cast<float>(off[1])};
   // A toe joint leaves the ground before the tip of the toes does. In walking, the stance takes
   // about 60 % of the cycle, less at higher speed.
-  if (rules.least_stance > 0 && gait.lifts[0] - gait.lands[0] < rules.least_stance) {
-    gait.lifts = {gait.lands[0] + rules.least_stance, gait.lands[1] - 0.44f};
+  if (rules.min_stance > 0 && gait.lifts[0] - gait.lands[0] < rules.min_stance) {
+    gait.lifts = {gait.lands[0] + rules.min_stance, gait.lands[1] - 0.44f};
   }
 }
 

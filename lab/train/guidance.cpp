@@ -18,7 +18,7 @@ constexpr int kNumbers = pose_feature_count(PoseLayout::positions);
 constexpr float kLabelSmoothing = 0.1f;
 // A style varies between bodies: changes within the style's own deviation plus this value are
 // equally likely. In output units.
-constexpr float kLeastDeviation = 0.15f;
+constexpr float kMinDeviation = 0.15f;
 constexpr float kLeanUnit = 0.1f, kFreeLean = 0.3f;   // Metres; units without penalty.
 constexpr float kFloorUnit = 0.05f, kFloor = 0.045f;  // Metres; no toe of the input is lower.
 constexpr double kTolerated = 0.4;                    // Share of a change that real takes agree on.
@@ -92,9 +92,9 @@ torch::Tensor traits_of(const torch::Tensor& bodies) {
 
 // How far a change of a trait may differ from that of the real takes.
 double tolerance_of(const Signature& real, size_t trait) {
-  const double least = kTraits[trait].least, share = kTolerated * std::abs(real.change[trait]);
-  return real.certain[trait] ? std::max(least / 2, std::min(real.deviation[trait], share))
-                             : std::max(least, real.deviation[trait]);
+  const double min = kTraits[trait].min, share = kTolerated * std::abs(real.change[trait]);
+  return real.certain[trait] ? std::max(min / 2, std::min(real.deviation[trait], share))
+                             : std::max(min, real.deviation[trait]);
 }
 
 // Difference of changes from those of real takes beyond the tolerance, with linear tails. All
@@ -184,7 +184,7 @@ Guidance::Guidance(const SampleSet& set, const std::vector<int>& choice, const O
   count.clamp_min_(1);
   style_mean_ = sum / count;
   style_deviation_ =
-      ((squares / count - style_mean_.square()).clamp_min(0) + kLeastDeviation * kLeastDeviation)
+      ((squares / count - style_mean_.square()).clamp_min(0) + kMinDeviation * kMinDeviation)
           .sqrt();
 
   signature_ = torch::zeros({styles_, kGuidedTraits});

@@ -3,9 +3,9 @@
 namespace panache {
 namespace {
 
-constexpr double kLeastDeviation = 0.02;  // Of a statistic.
-constexpr double kShrinkage = 0.15;       // Of the covariance, towards a multiple of the identity.
-constexpr double kOutlier = 4;            // Deviations.
+constexpr double kMinDeviation = 0.02;  // Of a statistic.
+constexpr double kShrinkage = 0.15;     // Of the covariance, towards a multiple of the identity.
+constexpr double kOutlier = 4;          // Deviations.
 
 }  // namespace
 
@@ -28,7 +28,7 @@ LinearDiscriminant::LinearDiscriminant(const std::vector<torch::Tensor>& rows_of
   torch::NoGradGuard no_gradients;
   const torch::Tensor all = torch::cat(rows_of_class);
   mean_ = all.mean(0);
-  scale_ = all.std(0, false) + kLeastDeviation;
+  scale_ = all.std(0, false) + kMinDeviation;
   const int64_t size = all.size(1), classes = static_cast<int64_t>(rows_of_class.size());
   std::vector<torch::Tensor> means;
   torch::Tensor covariance = torch::zeros({size, size}, torch::kFloat64);

@@ -173,16 +173,16 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
   const int64_t step = count / 1000;
   for (int64_t i = 0; i < count; i += step) {
     torch::Tensor far = (table.slice(1, 0, NeutralBank::kDirections) - moment_places[i]).norm(2, 1);
-    float least = 1e9f;
+    float min = 1e9f;
     for (int64_t p = 0; p < prototypes; ++p) {
       const auto of = members.begin() + p * NeutralBank::kPeople;
       if (std::find(of, of + NeutralBank::kPeople, static_cast<float>(person[i])) !=
           of + NeutralBank::kPeople) {
         continue;
       }
-      least = std::min(least, far[p].item<float>());
+      min = std::min(min, far[p].item<float>());
     }
-    distances.push_back(least);
+    distances.push_back(min);
   }
   std::sort(distances.begin(), distances.end());
 

@@ -101,8 +101,8 @@ Numbers shared_change(const std::map<int, Mean>& styles, const Squares& persons,
     const float median = (values[half] + values[(values.size() - 1) / 2]) / 2;
     const float person = persons.mean(n), spread = doubt * own_styles.mean(n);
     if (!(person > 0)) continue;
-    const float most = std::sqrt(person);
-    shared[n] = std::clamp(median * person / (person + spread), -most, most);
+    const float max = std::sqrt(person);
+    shared[n] = std::clamp(median * person / (person + spread), -max, max);
   }
   return shared;
 }

@@ -18,7 +18,7 @@ namespace panache {
 namespace {
 
 constexpr double kPartSeconds = 6;                 // Maximum length of a restyled part,
-constexpr double kLeastSeconds = 1.5;              // and minimum.
+constexpr double kMinSeconds = 1.5;                // and minimum.
 constexpr const char* kRestyled = "restyled";      // Content name of the model's output,
 constexpr const char* kUnlabelled = "unlabelled";  // and of its input.
 
@@ -46,7 +46,7 @@ Result<std::optional<RestyledPart>> restyle_part(const ManifestRow& row,
   if (!rig) return located(row.path, rig.error());
   const int first = std::min(rig->first_frame(), clip.frames - 1);
   const int frames = clip.frames - first;
-  if (frames * clip.frame_time < kLeastSeconds) return std::optional<RestyledPart>();
+  if (frames * clip.frame_time < kMinSeconds) return std::optional<RestyledPart>();
   const int length = std::min(frames, static_cast<int>(kPartSeconds / clip.frame_time));
   const int begin = static_cast<int>(random.below(static_cast<uint32_t>(frames - length + 1)));
   const Clip part = part_of(clip, begin, first + length);

@@ -289,9 +289,9 @@ class PredictorTraining {
         torch::cat({newest.slice(2, 0, kRoot) + times * velocity.slice(2, 0, kRoot),
                     newest.slice(2, kRoot).expand({-1, kAhead, kRootFeatures})},
                    2);
-    const torch::Tensor least =
+    const torch::Tensor min =
         torch::minimum(error(held.expand_as(wanted)), error(joints_ahead(moved)));
-    return (error(joints_ahead(roll_out(window, random))) / (least + kMinError * kMinError))
+    return (error(joints_ahead(roll_out(window, random))) / (min + kMinError * kMinError))
         .sqrt()
         .mean();
   }

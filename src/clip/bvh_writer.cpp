@@ -56,12 +56,12 @@ class BvhEncoder {
   // As many as the file uses. The first frame may be a rest pose of whole numbers, so several
   // frames are checked; a float needs no more than nine.
   int find_decimals() {
-    int most = 4;
+    int max = 4;
     for (int frame = 0; frame < std::min(document_.clip.frames, 16); ++frame) {
       split_line(frame);
-      for (const std::string_view word : words_) most = std::max(most, decimals_of(word));
+      for (const std::string_view word : words_) max = std::max(max, decimals_of(word));
     }
-    return std::min(most, 9);
+    return std::min(max, 9);
   }
 
   // Splits a line of the file into words and numbers, and finds its end.

@@ -14,9 +14,9 @@ namespace {
 // The minimum number of joints of a person; anything smaller is a prop.
 constexpr size_t kFewestJoints = 11;
 // No character has more; bounds the run time.
-constexpr size_t kMostJoints = 1000;
+constexpr size_t kMaxJoints = 1000;
 // Share of the vertices that may be outside the main tree: a prop, a hem.
-constexpr float kMostBeside = 0.25f;
+constexpr float kMaxBeside = 0.25f;
 // Frames that are compared to find what moves together.
 constexpr int kFramesLookedAt = 16;
 
@@ -83,7 +83,7 @@ class TreeFinder {
       picked_[j] = joints_[j].skin >= 0 && root[j] == heaviest->first;
     }
     const auto picked = static_cast<size_t>(std::count(picked_.begin(), picked_.end(), true));
-    return picked >= kFewestJoints && picked <= kMostJoints;
+    return picked >= kFewestJoints && picked <= kMaxJoints;
   }
 
   // parent_ and piece_: the nearest picked joint above each joint, and the topmost.
@@ -109,9 +109,9 @@ class TreeFinder {
       weights[piece_[j]] += joints_[j].skin_weight;
       all += joints_[j].skin_weight;
     }
-    float most = 0;
-    for (const auto& [piece, weight] : weights) most = std::max(most, weight);
-    return all - most > kMostBeside * all;
+    float max = 0;
+    for (const auto& [piece, weight] : weights) max = std::max(max, weight);
+    return all - max > kMaxBeside * all;
   }
 
   void look_at_motion() {
@@ -129,7 +129,7 @@ class TreeFinder {
     constexpr int kJointsOfCarrier = 3;  // At most one carrier per this many deforming joints.
     const std::vector<char> deforming = picked_;
     const auto picked = [&] { return std::count(picked_.begin(), picked_.end(), 1); };
-    const auto most = picked() + picked() / kJointsOfCarrier;
+    const auto max = picked() + picked() / kJointsOfCarrier;
     const float size = body_size();
     for (size_t j = count(); j-- > 0;) {
       if (picked_[j]) continue;
@@ -146,7 +146,7 @@ class TreeFinder {
       for (const size_t joint : between) picked_[joint] = 1;
       find_pieces();
     }
-    if (picked() <= most) return;
+    if (picked() <= max) return;
     picked_ = deforming;
     find_pieces();
   }
@@ -261,12 +261,12 @@ class TreeFinder {
   size_t find_main(const std::vector<size_t>& roots) const {
     std::map<int, size_t> followers;
     for (const size_t root : roots) {
-      float least = INFINITY;
+      float min = INFINITY;
       int followed = piece_[root];
       for (size_t above = 0; above < count(); ++above) {
         if (!picked_[above] || piece_[above] == piece_[root]) continue;
         const float now = cost(root, above);
-        if (now < least) least = now, followed = piece_[above];
+        if (now < min) min = now, followed = piece_[above];
       }
       ++followers[followed];
     }

@@ -188,17 +188,17 @@ class FbxClipsReader {
 
   // The curve of a joint with the most keys; one or two equal keys only hold a pose.
   const FbxCurve* deciding_curve(const FbxStack& stack) const {
-    const FbxCurve* most = nullptr;
+    const FbxCurve* max = nullptr;
     for (const FbxLayer& layer : stack.layers) {
       for (const auto& [target, node] : layer.by_target) {
         if (models_[target.first].joint < 0 || target.second == kFbxScale) continue;
         for (const FbxCurve& curve : layer.nodes[node].curves) {
           if (curve.keys.empty() || (curve.keys.size() <= 2 && !moves(curve))) continue;
-          if (!most || curve.keys.size() > most->keys.size()) most = &curve;
+          if (!max || curve.keys.size() > max->keys.size()) max = &curve;
         }
       }
     }
-    return most;
+    return max;
   }
 
   // Frames at the rate of the keys if they are close enough to be frames, else at the file's rate
@@ -234,11 +234,11 @@ class FbxClipsReader {
   Result<void> make_clip(FbxStack& stack) {
     const FrameGrid grid = grid_of(stack);
     poses_ += grid.frames * static_cast<double>(document_.joint_models.size());
-    const size_t most = fbx_max_poses(document_.tree.bytes().size());
-    if (!(grid.frames <= kFbxMaxFrames) || !(poses_ <= static_cast<double>(most))) {
+    const size_t max = fbx_max_poses(document_.tree.bytes().size());
+    if (!(grid.frames <= kFbxMaxFrames) || !(poses_ <= static_cast<double>(max))) {
       return Error{
           document_.tree.name() + ": expected motions of at most " + std::to_string(kFbxMaxFrames) +
-          " frames, and in all of at most " + std::to_string(most) +
+          " frames, and in all of at most " + std::to_string(max) +
           " frames times joints, as the file is of this size; found more; is the time of a "
           "key wrong?"};
     }

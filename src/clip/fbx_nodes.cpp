@@ -14,8 +14,8 @@ Affine linear(Quatd rotation, Vec3d scale = {1, 1, 1}) { return affine(rotation,
 
 bool has_inverse(const Affine& m) {
   const auto& [x, y, z] = m.columns;
-  const double most = std::max({length(x), length(y), length(z)});
-  return std::abs(dot(cross(x, y), z)) > 1e-9 * most * most * most && most > 1e-6;
+  const double max = std::max({length(x), length(y), length(z)});
+  return std::abs(dot(cross(x, y), z)) > 1e-9 * max * max * max && max > 1e-6;
 }
 
 Vec3d signs_of(Vec3d v) {
@@ -159,8 +159,8 @@ class MovedModels {
       }
     }
     // Those that are no joints take no bytes of curves (fbx_max_poses()).
-    const auto most = static_cast<double>(fbx_max_poses(document.tree.bytes().size()));
-    if (static_cast<double>(further) * stack.clip.frames > most) keep_joints();
+    const auto max = static_cast<double>(fbx_max_poses(document.tree.bytes().size()));
+    if (static_cast<double>(further) * stack.clip.frames > max) keep_joints();
     for (size_t m = kinds_.size(); m-- > 0;) {
       const int parent = document.models[m].parent;
       if (kinds_[m] == Kind::moved || kinds_[m] == Kind::follows) needed_[m] = 1;

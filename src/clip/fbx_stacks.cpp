@@ -188,9 +188,9 @@ class FbxStacksReader {
     if (!curve) return curve.error();
     out = *std::move(curve);
     keys_ += out.keys.size();
-    const size_t most = fbx_max_keys(tree_.bytes().size());
-    if (keys_ <= most) return {};
-    return tree_.error(node, "at most " + std::to_string(most) + " keys in all", "more");
+    const size_t max = fbx_max_keys(tree_.bytes().size());
+    if (keys_ <= max) return {};
+    return tree_.error(node, "at most " + std::to_string(max) + " keys in all", "more");
   }
 
   FbxDocument& document_;

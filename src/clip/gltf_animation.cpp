@@ -109,9 +109,9 @@ class ClipReader {
       if (channels[c].path == GltfPath::other) continue;
       if (!read_gltf_track(document_, which, channels[c], checker_, tracks_[c])) return false;
       values_ += tracks_[c].times.size() + tracks_[c].numbers.size();
-      const size_t most = gltf_max_values(document_.container.size);
-      if (values_ > most) {
-        return checker_.fail(animation_path(which), "expected at most " + std::to_string(most) +
+      const size_t max = gltf_max_values(document_.container.size);
+      if (values_ > max) {
+        return checker_.fail(animation_path(which), "expected at most " + std::to_string(max) +
                                                         " numbers in all animations of a file of " +
                                                         std::to_string(document_.container.size) +
                                                         " bytes, found more");
@@ -123,16 +123,16 @@ class ClipReader {
   // The channel whose keys determine the frames: the one that rotates or moves a node with the most
   // keys. One or two equal keys only hold a pose.
   const GltfTrack* deciding_track(const GltfAnimation& animation) const {
-    const GltfTrack* most = nullptr;
+    const GltfTrack* max = nullptr;
     for (size_t c = 0; c < tracks_.size(); ++c) {
       const GltfPath path = animation.channels[c].path;
       if (path != GltfPath::rotation && path != GltfPath::translation) continue;
       if (joint_of(animation.channels[c]) < 0) continue;
       const GltfTrack& track = tracks_[c];
       if (track.times.size() <= 2 && track.is_constant()) continue;
-      if (!most || track.times.size() > most->times.size()) most = &track;
+      if (!max || track.times.size() > max->times.size()) max = &track;
     }
-    return most;
+    return max;
   }
 
   bool make_room(size_t which) {
@@ -149,12 +149,12 @@ class ClipReader {
     const FrameGrid grid = animation.has_rate && fps_ ? find_grid(deciding, first, last, 1 / *fps_)
                                                       : find_grid(deciding, first, last);
     poses_ += grid.frames * document_.joint_nodes.size();
-    const size_t most = gltf_max_poses(document_.container.size);
-    if (!(grid.frames <= kGltfMaxFrames) || !(poses_ <= most)) {
+    const size_t max = gltf_max_poses(document_.container.size);
+    if (!(grid.frames <= kGltfMaxFrames) || !(poses_ <= max)) {
       return checker_.fail(animation_path(which),
                            "expected at most " + std::to_string(kGltfMaxFrames) +
                                " frames, and frames times joints in all animations at most " +
-                               std::to_string(most) + ", found more");
+                               std::to_string(max) + ", found more");
     }
     animation.start = grid.start;
     animation.clip.skeleton = document_.skeleton;

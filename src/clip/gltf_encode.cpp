@@ -266,9 +266,9 @@ size_t GltfDataWriter::add(std::span<const float> numbers, std::string_view type
                        {"count", numbers.size() / components},
                        {"type", type}};
   if (bounds) {
-    const auto [least, most] = std::ranges::minmax(numbers);
-    accessor["min"].push_back(least);
-    accessor["max"].push_back(most);
+    const auto [min, max] = std::ranges::minmax(numbers);
+    accessor["min"].push_back(min);
+    accessor["max"].push_back(max);
   }
   json_["accessors"].push_back(std::move(accessor));
   return json_["accessors"].size() - 1;

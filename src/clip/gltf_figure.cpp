@@ -132,13 +132,13 @@ class FigureWriter {
     const size_t index = add_vertex_data(positions, "VEC3", 3);
     GltfJson& accessor = json_["accessors"][index];
     for (size_t axis = 0; axis < 3; ++axis) {
-      float least = positions[axis], most = least;
+      float min = positions[axis], max = min;
       for (size_t i = axis; i < positions.size(); i += 3) {
-        least = std::min(least, positions[i]);
-        most = std::max(most, positions[i]);
+        min = std::min(min, positions[i]);
+        max = std::max(max, positions[i]);
       }
-      accessor["min"].push_back(least);
-      accessor["max"].push_back(most);
+      accessor["min"].push_back(min);
+      accessor["max"].push_back(max);
     }
     return index;
   }

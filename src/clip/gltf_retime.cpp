@@ -115,10 +115,10 @@ class Retimer {
         const int tangents = tangents_at(output, times.count, to.scale);
         if (tangents >= 0) changed["output"] = tangents;
       }
-      const size_t most = gltf_max_values(document_.container.size);
-      if (added_.size() / 4 <= most) continue;
+      const size_t max = gltf_max_values(document_.container.size);
+      if (added_.size() / 4 <= max) continue;
       return checker_.fail(item_path("animations", animation),
-                           "expected at most " + std::to_string(most) +
+                           "expected at most " + std::to_string(max) +
                                " numbers in keys of another time, found more");
     }
     return true;

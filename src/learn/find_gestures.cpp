@@ -191,7 +191,7 @@ using ExcessOfTakes = std::map<int, std::vector<Excess>>;  // By take, [frames].
 // that people name, and steady walks have none.
 
 // Excess below which a part is never in a gesture, and above which it always is: radians, metres.
-constexpr Parts kLeast = {0.35f, 0.30f, 0.30f, 0.6f, 0.6f, 0.07f, 0.04f};
+constexpr Parts kMin = {0.35f, 0.30f, 0.30f, 0.6f, 0.6f, 0.07f, 0.04f};
 constexpr Parts kAlways = {0.6f, 0.5f, 0.6f, 1.8f, 1.8f, 0.16f, 0.08f};
 constexpr float kDeviations = 3;  // Standard deviations beyond the median.
 constexpr float kClear = 1.15f;   // A gesture's peak, relative to that limit.
@@ -222,7 +222,7 @@ Parts limits_of(const ExcessOfTakes& excess) {
     for (const float size : sizes) apart.push_back(std::abs(size - usual));
     // For a normal distribution, the deviation is 1.4826 times the median absolute deviation.
     const float wide = usual + kDeviations * 1.4826f * median(std::move(apart));
-    limits[p] = std::clamp(wide, kLeast[p], kAlways[p]);
+    limits[p] = std::clamp(wide, kMin[p], kAlways[p]);
   }
   return limits;
 }

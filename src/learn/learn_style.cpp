@@ -40,7 +40,7 @@ constexpr double kPairPenalty = 1, kTwinPenalty = 100;
 constexpr double kHeldBack = 0.75;  // From this fraction of a styled clip on, it is held out.
 // The remaining fraction of the distance to the styled motion, relative to no style: 0.84 to 1.03
 // for pairs whose clips show different actions, 0.3 to 0.86 for pairs of one action.
-constexpr double kNoBetter = 0.9, kGoodShare = 0.75, kMostShare = 0.25;
+constexpr double kNoBetter = 0.9, kGoodShare = 0.75, kMaxShare = 0.25;
 
 // The name of a file for the model's metadata: without folders, on one line.
 std::string file_name(const std::string& path) {
@@ -232,7 +232,7 @@ Result<LearntStyle> learn_pose(const TensorFile& file, const Model& model,
 const char* LearntStyle::verdict() const {
   if (!judged) return "";
   if (held_back_cm >= kNoBetter * untouched_cm) return "poor";
-  if (held_back_cm < kMostShare * untouched_cm) return "good";
+  if (held_back_cm < kMaxShare * untouched_cm) return "good";
   const bool beats_posture = held_back_cm < mean_posture_cm;
   return beats_posture && held_back_cm < kGoodShare * untouched_cm ? "good" : "fair";
 }

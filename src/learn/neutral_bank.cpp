@@ -63,7 +63,7 @@ constexpr std::array kAmplitudes = {left_lower_leg,  left_foot,      right_lower
                                     right_foot,      left_lower_arm, left_hand,
                                     right_lower_arm, right_hand,     head};
 
-float bounded(float value, float most) { return std::clamp(value, -most, most); }
+float bounded(float value, float max) { return std::clamp(value, -max, max); }
 
 // The canonical body nearest to `joints`, whose limb lengths may differ.
 HumanPositions whole_body(const HumanPositions& joints) {

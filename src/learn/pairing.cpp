@@ -289,21 +289,21 @@ std::optional<double> step_agreement(const std::vector<Take>& takes,
         take.body[std::clamp(static_cast<int>(std::lround(frame)), 0, take.frames() - 1)];
     return double(body[index(HumanJoint::left_foot)].z - body[index(HumanJoint::right_foot)].z);
   };
-  double sum = 0, most = 0, neutral_way = 0, styled_way = 0, count = 0;
+  double sum = 0, max = 0, neutral_way = 0, styled_way = 0, count = 0;
   for (const Pairing& pairing : pairings) {
     for (size_t i = 0; i < pairing.neutral_frames.size(); ++i) {
       const double neutral = ahead(takes[pairing.neutral], pairing.neutral_frames[i]);
       const double styled =
           ahead(takes[pairing.styled], static_cast<float>(pairing.first + static_cast<int>(i)));
       sum += neutral * styled;
-      most += std::abs(neutral * styled);
+      max += std::abs(neutral * styled);
       neutral_way += std::abs(neutral);
       styled_way += std::abs(styled);
       ++count;
     }
   }
   if (!(std::min(neutral_way, styled_way) > kFeetTogether * count)) return std::nullopt;
-  return sum / most;
+  return sum / max;
 }
 
 std::vector<Pairing> pair_takes(const std::vector<Take>& takes, const std::vector<int>& styled,

@@ -81,7 +81,7 @@ void SignatureMatch::add(const Signature& signature, const Traits& made) {
     change[t] += made[t];
     if (!signature.certain[t]) continue;
     ++traits;
-    if (std::abs(made[t]) < kNoChange * kTraits[t].least) continue;
+    if (std::abs(made[t]) < kNoChange * kTraits[t].min) continue;
     const double share = made[t] / signature.change[t];
     sign += share > 0;
     amount += share >= 0.5 && share <= 2;
@@ -169,7 +169,7 @@ Signature Signatures::agree(const std::vector<Traits>& actions) {
     const auto same = std::count_if(actions.begin(), actions.end(),
                                     [&](const Traits& action) { return action[t] * mean > 0; });
     signature.change[t] = mean;
-    signature.certain[t] = std::abs(mean) >= kTraits[t].least && same >= kAgree * actions.size();
+    signature.certain[t] = std::abs(mean) >= kTraits[t].min && same >= kAgree * actions.size();
   }
   return signature;
 }

@@ -18,7 +18,7 @@ namespace panache {
 struct Trait {
   const char* key;    // In report.json.
   const char* label;  // For people, with the unit.
-  double least;       // Smaller differences are ignored.
+  double min;         // Smaller differences are ignored.
 };
 inline constexpr std::array kTraits = std::to_array<Trait>({
     {"lean", "lean forward, degrees", 3},

@@ -115,13 +115,13 @@ Vec3 FootLock::bend(Foot& foot, Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 ahead, flo
   // A small shift of the foot, or a well bent knee, does not move a knee to the other side.
   const float straight = 1 - length(across(knee - hip, axis)) / (2 * kFirm);
   const float share = firm * straight;
-  const float most = share > 0 ? kKneeRate * seconds / share : 1.0f;
+  const float max = share > 0 ? kKneeRate * seconds / share : 1.0f;
   const float along = dot(wanted, last);
-  if (most >= 1 || last == Vec3{} || (along > 0 && along * along >= 1 - most * most)) {
+  if (max >= 1 || last == Vec3{} || (along > 0 && along * along >= 1 - max * max)) {
     foot.knee = wanted;
   } else {
     const Vec3 around = normalized(wanted - last * along, cross(axis, last));
-    foot.knee = normalized(last + around * most);
+    foot.knee = normalized(last + around * max);
   }
   return foot.knee;
 }

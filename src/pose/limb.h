@@ -24,8 +24,8 @@ inline Vec3 from_line(Vec3 point, Vec3 a, Vec3 b) noexcept {
 }
 
 // `v` with its length beyond `free` compressed so that it stays below `most`.
-inline Vec3 softly_bounded(Vec3 v, float free, float most) noexcept {
-  const float far = length(v), over = far - free, room = most - free;
+inline Vec3 softly_bounded(Vec3 v, float free, float max) noexcept {
+  const float far = length(v), over = far - free, room = max - free;
   if (!(over > 0)) return v;
   return v * ((free + over * room / (over + room)) / far);
 }

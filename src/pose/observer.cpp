@@ -23,8 +23,8 @@ bool Observer::observe(ConstPose in, double seconds) noexcept {
   sanitize_pose(in);
   last_root_ = started_ ? now_.root : RootPose{};
   panache::observe(rig_, pose(), started_ ? last_root_.facing : 0, now_);
-  const float most = max_speed_ * static_cast<float>(std::max(seconds, 1e-3));
-  const bool continues = started_ && !(length(now_.root.position - last_root_.position) > most);
+  const float max = max_speed_ * static_cast<float>(std::max(seconds, 1e-3));
+  const bool continues = started_ && !(length(now_.root.position - last_root_.position) > max);
   started_ = true;
   return continues;
 }

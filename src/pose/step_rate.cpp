@@ -19,10 +19,10 @@ namespace {
 // has next to none, so the body would hang in the air beside its foot. Both only show where legs
 // step: a person who really moves slowly keeps the centre over the foot.
 //
-// Measured on 2,228 takes of walks, runs, dances and sports (bandai, xia, formats, cmu, cmu-styles,
-// cmu-more): at their own rate 7 are doubted, all of cmu-more and five of them by one performer. Of
-// 89 walks (of bandai, many with four steps only), 98 % are noticed at 4 times their rate, 71 % at
-// 2.5 times, 85 % at a quarter and 80 % at 0.4 of it.
+// Measured on takes of walks, runs, dances and sports (bandai, xia, formats, cmu, cmu-styles,
+// cmu-more): at their own rate @@ are doubted, all of cmu-more and five of them by one performer.
+// Of 89 walks (of bandai, many with four steps only), 98 % are noticed at 4 times their rate, 71 %
+// at 2.5 times, 85 % at a quarter and 80 % at 0.4 of it.
 
 constexpr double kGravity = 9.81;
 constexpr int kMaxFrames = 3000;  // More add nothing.
@@ -44,10 +44,11 @@ constexpr double kImpossibleRate = 1.4;
 // Too slow: fewer steps than this, and the point is not much further off at 2.5 times the rate.
 constexpr double kSlowRate = 0.28, kSlowStep = 0.4, kSlowMiss = 0.036, kSlowTimes = 1.25;
 constexpr size_t kFastSteps = 4, kSlowSteps = 5;
-// So slow that two steps suffice, as in a short clip whose frames became seconds; those that its
-// ends cut off count, and seem faster than they are.
+// So slow that two steps suffice, as in a short clip whose frames became seconds. Those that its
+// ends cut off count if they have no more frames than a step at 120 frames a second.
 constexpr double kStoppedRate = 0.08;
 constexpr size_t kStoppedSteps = 2;
+constexpr double kCutFrames = 90;
 constexpr double kFaster = 2.5, kSlower = 0.4;
 
 // Shares of a body's mass by joint, those of both sides alike (after Winter's tables).
@@ -281,7 +282,10 @@ std::optional<std::string> doubtful_rate(const Clip& clip, const Rig& rig) {
   if (walk.bodies.size() < 8 || !(walk.leg > 0)) return std::nullopt;
   const std::vector<double> ahead = separations(clip, rig, walk);
   Steps steps = find_steps(walk, ahead, false);
-  if (steps.steps.size() < kStoppedSteps) steps = find_steps(walk, ahead, true);
+  if (steps.steps.size() < kStoppedSteps) {
+    steps = find_steps(walk, ahead, true);
+    if (steps.frames > kCutFrames) return std::nullopt;
+  }
   if (steps.steps.size() < kStoppedSteps) return std::nullopt;
   const double a_second = 1 / (steps.frames * clip.frame_time);
   const double rate = a_second * std::sqrt(walk.leg / kGravity);

@@ -14,7 +14,7 @@ namespace {
 
 // A foot counts less the higher it is: a third at 7 cm, a hundredth far up.
 constexpr float kLow = 0.07f;
-constexpr float kLeastWeight = 0.01f;
+constexpr float kMinWeight = 0.01f;
 // The body rises this long before a toe would go under the floor.
 constexpr float kRiseSeconds = 0.12f;
 // Time for a foot to blend to and from its planted position.
@@ -150,7 +150,7 @@ void match_heights(const BodyPose& body, GroundedFrame& frame) noexcept {
   changed_joints(body, frame.change, joints);
   float sum = 0, weights = 0;
   for (int f = 0; f < kFeet; ++f) {
-    const float share = kLeastWeight + weight(frame.toes[f].y);
+    const float share = kMinWeight + weight(frame.toes[f].y);
     sum += share * (frame.toes[f].y - toe_place(body, joints, frame.change, f).y);
     weights += share;
   }

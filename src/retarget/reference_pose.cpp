@@ -161,13 +161,13 @@ class Finder {
   }
 
   float steepest_leg() const {
-    float least = 1;
+    float min = 1;
     for (int f = 0; f < kFeet; ++f) {
       const int upper = index(kUpperLegs[f]), lower = index(kLowerLegs[f]);
-      least = std::min({least, -way(rest_.joints, upper, lower).y,
-                        -way(rest_.joints, lower, index(kAnkles[f])).y});
+      min = std::min({min, -way(rest_.joints, upper, lower).y,
+                      -way(rest_.joints, lower, index(kAnkles[f])).y});
     }
-    return least;
+    return min;
   }
 
   bool stands() const {

@@ -39,8 +39,8 @@ float swing_beyond(Vec3 direction, const Swings& swings) noexcept {
   if (!(across < 1e-6f)) {
     const float ahead = direction.z / across / (direction.z > 0 ? range.front : range.back);
     const float out = direction.x / across / (direction.x > 0 ? range.out : range.in);
-    const float most = 1 / std::sqrt(ahead * ahead + out * out) + kRangeMargin;
-    beyond = arc_tangent(across, dot(direction, swings.rest)) - most;
+    const float max = 1 / std::sqrt(ahead * ahead + out * out) + kRangeMargin;
+    beyond = arc_tangent(across, dot(direction, swings.rest)) - max;
   }
   if (!swings.arm) return beyond;
   return std::min(beyond, in_radians(kOverheadSlope) * (kOverhead - direction.y));

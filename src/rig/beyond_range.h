@@ -35,13 +35,13 @@ float swing_beyond(Vec3 direction, const Swings& swings) noexcept;
 
 struct Hinge {
   Vec3 bends_to;  // Direction of the bending lower limb while the upper one hangs down.
-  float most, back;
+  float max, back;
   float safe;  // Cosine of a bend the right way that needs no further check.
 };
 inline constexpr Hinge kElbowHinge = {
-    {0, 0, 1}, in_radians(kElbowRange.most) + kRangeMargin, in_radians(kElbowRange.back), -.8660f};
+    {0, 0, 1}, in_radians(kElbowRange.max) + kRangeMargin, in_radians(kElbowRange.back), -.8660f};
 inline constexpr Hinge kKneeHinge = {
-    {0, 0, -1}, in_radians(kKneeRange.most) + kRangeMargin, in_radians(kKneeRange.back), -.7660f};
+    {0, 0, -1}, in_radians(kKneeRange.max) + kRangeMargin, in_radians(kKneeRange.back), -.7660f};
 
 struct Bend {
   float angle = 0;  // Radians,

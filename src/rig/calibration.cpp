@@ -117,8 +117,8 @@ class Calibrator {
     constexpr float kStays = 0.01f;
     if (std::abs(leg - *middle) > kStays * *middle) {
       const float rest = legs_at_rest();
-      const auto [least, most] = std::minmax_element(legs.begin(), legs.end());
-      leg = rest > (1 - kStays) * *least && rest < (1 + kStays) * *most ? rest : *middle;
+      const auto [min, max] = std::minmax_element(legs.begin(), legs.end());
+      leg = rest > (1 - kStays) * *min && rest < (1 + kStays) * *max ? rest : *middle;
     }
     out_.scale = 2 * kProportions.leg / leg;
     if (!std::isfinite(out_.scale)) return Error{"the legs of the humanoid have no length"};

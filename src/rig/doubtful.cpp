@@ -44,7 +44,7 @@ bool is_at_or_below(const Skeleton& skeleton, int above, int joint) {
 
 // Detects arms whose skin is also moved by joints that do not follow the hips: it would tear.
 std::optional<Error> find_tear(const Skeleton& skeleton, int hips_joint, int arm) {
-  constexpr float kMostLeft = 0.25f;  // Share of the skin: a prop, a hem that follows the root.
+  constexpr float kMaxLeft = 0.25f;  // Share of the skin: a prop, a hem that follows the root.
   const std::vector<Joint>& joints = skeleton.joints;
   int skin = -1;
   for (size_t j = 0; j < joints.size() && skin < 0; ++j) {
@@ -52,22 +52,22 @@ std::optional<Error> find_tear(const Skeleton& skeleton, int hips_joint, int arm
   }
   if (skin < 0) return std::nullopt;
   float all = 0, left = 0;
-  int most = -1;
+  int max = -1;
   for (size_t j = 0; j < joints.size(); ++j) {
     if (joints[j].skin != skin) continue;
     all += joints[j].skin_weight;
     if (is_at_or_below(skeleton, hips_joint, static_cast<int>(j))) continue;
     left += joints[j].skin_weight;
-    if (most < 0 || joints[j].skin_weight > joints[most].skin_weight) {
-      most = static_cast<int>(j);
+    if (max < 0 || joints[j].skin_weight > joints[max].skin_weight) {
+      max = static_cast<int>(j);
     }
   }
-  if (!(left > kMostLeft * all)) return std::nullopt;
+  if (!(left > kMaxLeft * all)) return std::nullopt;
   const auto percent = static_cast<int>(std::lround(100 * left / all));
   return Error{"doubtful: hips would be " + quoted_name(skeleton, hips_joint) +
                ", which does not move " + std::to_string(percent) +
                " % of the mesh of leftUpperArm " + quoted_name(skeleton, arm) +
-               ", such as what follows " + quoted_name(skeleton, most) + kCure};
+               ", such as what follows " + quoted_name(skeleton, max) + kCure};
 }
 
 // Detects meshes that follow another skeleton of the file: the style would be invisible.

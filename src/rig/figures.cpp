@@ -115,14 +115,14 @@ class FigureFinder {
     return true;
   }
   // At most `most` joints of the figure, evenly spread, without its root.
-  std::vector<int> some_joints(int root, size_t most) const {
+  std::vector<int> some_joints(int root, size_t max) const {
     std::vector<int> all;
     for (size_t j = 0; j < joints_.size(); ++j) {
       const int joint = static_cast<int>(j);
       if (joint != root && is_below(joint, root)) all.push_back(joint);
     }
     std::vector<int> some;
-    const size_t count = std::min(most, all.size());
+    const size_t count = std::min(max, all.size());
     for (size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
     return some;
   }

@@ -106,12 +106,12 @@ class FollowerFinder {
   }
   // The largest distance of two joints, in sizes of the body.
   float apart(int a, int b) const {
-    float most = 0;
+    float max = 0;
     for (const SampledJoints& frame : frames_) {
       const ConstPose world = frame.world(0);
-      most = std::max(most, length(world.translations[a] - world.translations[b]) / size_);
+      max = std::max(max, length(world.translations[a] - world.translations[b]) / size_);
     }
-    return most;
+    return max;
   }
 
   // The human joint that the joint follows instead of `carrier`; -1 if there is none.
@@ -119,7 +119,7 @@ class FollowerFinder {
     const int carried = carrier < 0 ? -1 : joint_of_[carrier];
     const Stray now = stray_from(carried, joint);
     int best = -1;
-    float least = INFINITY;
+    float min = INFINITY;
     for (int human = 0; human < kHumanJoints; ++human) {
       const int other = joint_of_[human];
       if (other < 0 || human == carrier || human_of_[other] < 0) continue;
@@ -128,7 +128,7 @@ class FollowerFinder {
                         : rests_on(joint, other, carried, distance))) {
         continue;
       }
-      if (distance < least) least = distance, best = human;
+      if (distance < min) min = distance, best = human;
     }
     return best;
   }

@@ -54,10 +54,10 @@ float limb_oddity(const JointTree& tree, LimbKind kind, int branch, const Limb& 
 int farthest_below(const JointTree& tree, int joint) {
   for (;;) {
     int longest = -1;
-    float most = tree.end_length(joint);
+    float max = tree.end_length(joint);
     for (const int child : tree.children(joint)) {
       const float reach = tree.distance(joint, child) + tree.reach(child);
-      if (reach > most) most = reach, longest = child;
+      if (reach > max) max = reach, longest = child;
     }
     if (longest < 0) return joint;
     joint = longest;
@@ -74,13 +74,13 @@ std::vector<int> limb_chain(const JointTree& tree, int branch, int tip) {
   return chain;
 }
 
-Limb most_usual_limb(const JointTree& tree, LimbKind kind, int branch,
-                     const std::vector<int>& chain, int end) {
+Limb usual_limb(const JointTree& tree, LimbKind kind, int branch, const std::vector<int>& chain,
+                int end) {
   Limb best;
-  float least = INFINITY;
+  float min = INFINITY;
   const auto consider = [&](const Limb& limb) {
     const float odd = limb_oddity(tree, kind, branch, limb);
-    if (odd < least) least = odd, best = limb;
+    if (odd < min) min = odd, best = limb;
   };
   const size_t n = chain.size();
   if (end < 0 && n > kLongestLimb) return best;

@@ -43,7 +43,7 @@ std::vector<int> limb_chain(const JointTree& tree, int branch, int tip);
 // The limb of least oddity among the joints of a chain (from the torso down); `end`, if given, is
 // the last of the chain and the limb's end. All -1 if the chain is too short or, without `end`,
 // longer than any limb.
-Limb most_usual_limb(const JointTree& tree, LimbKind kind, int branch,
-                     const std::vector<int>& chain, int end = -1);
+Limb usual_limb(const JointTree& tree, LimbKind kind, int branch, const std::vector<int>& chain,
+                int end = -1);
 
 }  // namespace panache

@@ -26,14 +26,14 @@ class LimbFinder {
     const LimbKind kind = human.kind;
     const int branch = tree_.meeting(lowest_joint(known), other_tip);
     Limb best{-1, -1, known.end};
-    float least = INFINITY;
+    float min = INFINITY;
     const auto consider = [&](const Limb& limb, float trust) {
       if (limb.upper < 0 || limb.lower < 0) return;
       const JointName& lower = names_[limb.lower];
       const bool named = kind == LimbKind::arm ? is_forearm(lower) : is_shin(lower);
       const float odd =
           limb_oddity(tree_, kind, std::max(branch, 0), limb) - trust - (named ? kNamedLimb : 0);
-      if (odd < least) least = odd, best = limb;
+      if (odd < min) min = odd, best = limb;
     };
     for (const bool skip_pieces : {true, false}) {
       const int lower = known.end < 0 ? known.lower : above(known.end, other_tip, skip_pieces);
@@ -47,7 +47,7 @@ class LimbFinder {
     }
     if (known.end >= 0 && branch >= 0) {
       const std::vector<int> chain = limb_chain(tree_, branch, known.end);
-      consider(most_usual_limb(tree_, kind, branch, chain, known.end), 0);
+      consider(usual_limb(tree_, kind, branch, chain, known.end), 0);
     }
     return best;
   }

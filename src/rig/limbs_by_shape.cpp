@@ -17,7 +17,7 @@ constexpr float kOddest = 14;
 constexpr float kUpright = 0.5f;
 
 // If there are more pairs, only the longest count.
-constexpr size_t kMostPairs = 256;
+constexpr size_t kMaxPairs = 256;
 
 // Two limbs of one length that leave the torso at one joint.
 struct Pair {
@@ -73,7 +73,7 @@ float fit(const JointTree& tree, LimbKind kind, Pair& pair, std::array<Limb, 2>&
   std::array<std::vector<int>, 2> chains;
   for (size_t side : {0, 1}) {
     chains[side] = limb_chain(tree, pair.branch, farthest_below(tree, pair.tops[side]));
-    limbs[side] = most_usual_limb(tree, kind, pair.branch, chains[side]);
+    limbs[side] = usual_limb(tree, kind, pair.branch, chains[side]);
     if (limbs[side].upper < 0) return INFINITY;
   }
   if (kind == LimbKind::leg && tree.poses().size() > 2) lower_hips(tree, chains, limbs);
@@ -104,10 +104,10 @@ std::vector<Pair> find_pairs(const JointTree& tree) {
       }
     }
   }
-  if (pairs.size() > kMostPairs) {
+  if (pairs.size() > kMaxPairs) {
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Pair& a, const Pair& b) { return a.reach > b.reach; });
-    pairs.resize(kMostPairs);
+    pairs.resize(kMaxPairs);
   }
   for (Pair& pair : pairs) {
     pair.arm_oddity = fit(tree, LimbKind::arm, pair, pair.arms);
@@ -185,19 +185,19 @@ int named_left(const JointTree& tree, std::span<const JointName> names,
 
 float uprightness(const JointTree& tree, const std::array<Limb, 2>& arms,
                   const std::array<Limb, 2>& legs) {
-  float most = -1;
+  float max = -1;
   for (const JointPositions& pose : tree.poses()) {
     const Vec3 leg = middle(pose[legs[0].upper], pose[legs[1].upper]) -
                      middle(end_of(pose, legs[0]), end_of(pose, legs[1]));
-    most = std::max(most, dot(normalized(leg), normalized(torso(pose, arms, legs))));
+    max = std::max(max, dot(normalized(leg), normalized(torso(pose, arms, legs))));
   }
-  return most;
+  return max;
 }
 
 std::optional<Limbs> find_limbs_by_shape(const JointTree& tree, std::span<const JointName> names) {
   const std::vector<Pair> pairs = find_pairs(tree);
   const Pair *arms = nullptr, *legs = nullptr;
-  float least = INFINITY;
+  float min = INFINITY;
   for (const Pair& leg : pairs) {
     if (!(leg.leg_oddity < 2 * kOddest)) continue;
     for (const Pair& arm : pairs) {
@@ -209,7 +209,7 @@ std::optional<Limbs> find_limbs_by_shape(const JointTree& tree, std::span<const 
       const float longer = leg_length / std::max(arm_length, 1e-9f);
       const float odd = arm.arm_oddity + leg.leg_oddity + square(std::log(longer / 1.5f) / 0.3f) +
                         10 * (1 - upright);
-      if (odd < least) least = odd, arms = &arm, legs = &leg;
+      if (odd < min) min = odd, arms = &arm, legs = &leg;
     }
   }
   if (!arms) return std::nullopt;

@@ -181,16 +181,16 @@ class Mapper {
   }
   // The child that leads farthest up in the middle between the arms; -1 if none does. `most_off`:
   // the maximum distance from the middle.
-  int middle_child(int joint, float most_off) const {
+  int middle_child(int joint, float max_off) const {
     int middle = -1;
-    float most = 0;
+    float max = 0;
     for (const int j : tree_.children(joint)) {
       if (names_[j].side != Side::none || is_near(names_[j]) || is_on_head(names_[j])) continue;
-      if (!(off_centre(j) < most_off)) continue;
+      if (!(off_centre(j) < max_off)) continue;
       if (tree_.is_above(j, draft_.arm_tips[0]) || tree_.is_above(j, draft_.arm_tips[1])) continue;
       if (tree_.is_above(j, at(left_foot)) || tree_.is_above(j, at(right_foot))) continue;
       const float reach = tree_.distance(joint, j) + tree_.reach(j);
-      if (reach > most) most = reach, middle = j;
+      if (reach > max) max = reach, middle = j;
     }
     return middle;
   }
@@ -217,14 +217,14 @@ class Mapper {
   // The joint of a chain whose distance is nearest to that in a body with legs of this length; -1
   // if there is none.
   template <class Distance>
-  int most_usual(const std::vector<int>& chain, float usual, Distance distance) const {
+  int usual_joint(const std::vector<int>& chain, float usual, Distance distance) const {
     const float leg = tree_.distance(at(left_upper_leg), at(left_lower_leg)) +
                       tree_.distance(at(left_lower_leg), at(left_foot));
     int best = -1;
-    float least = INFINITY;
+    float min = INFINITY;
     for (const int joint : chain) {
       const float off = std::abs(distance(joint) / leg - usual / kProportions.leg);
-      if (off < least) least = off, best = joint;
+      if (off < min) min = off, best = joint;
     }
     return best;
   }
@@ -239,7 +239,7 @@ class Mapper {
       }
       return sum / static_cast<float>(tree_.poses().size());
     };
-    const int found = most_usual(chain_above(top), kUsual, above_shoulders);
+    const int found = usual_joint(chain_above(top), kUsual, above_shoulders);
     if (found < 0) return;
     put(is_neck(names_[found]) ? neck : head, found, "in the chain above the chest", kByPlace);
   }
@@ -301,8 +301,8 @@ class Mapper {
     put(joint, front, "next joint below an ankle", kByTree);
     if (front >= 0 || !draft_.by_shape) return;
     const std::vector<int> chain = limb_chain(tree_, foot, farthest_below(tree_, foot));
-    const int found = most_usual(chain, kProportions.length[index(left_toes)],
-                                 [&](int below_it) { return tree_.distance(foot, below_it); });
+    const int found = usual_joint(chain, kProportions.length[index(left_toes)],
+                                  [&](int below_it) { return tree_.distance(foot, below_it); });
     put(joint, found, "in the chain below " + name_of(foot_joint), kByPlace);
   }
 

@@ -88,15 +88,15 @@ class Creature {
            middle(pose, left_upper_leg, right_upper_leg);
   }
   float straightest_leg(const JointPositions& pose) const {
-    float most = 0;
+    float max = 0;
     for (const auto& [hip, knee, foot] :
          {std::array{left_upper_leg, left_lower_leg, left_foot},
           std::array{right_upper_leg, right_lower_leg, right_foot}}) {
       const float whole =
           length(pose[at(hip)] - pose[at(knee)]) + length(pose[at(knee)] - pose[at(foot)]);
-      most = std::max(most, length(pose[at(hip)] - pose[at(foot)]) / std::max(whole, 1e-9f));
+      max = std::max(max, length(pose[at(hip)] - pose[at(foot)]) / std::max(whole, 1e-9f));
     }
-    return most;
+    return max;
   }
   // Up is from the feet to the hips.
   bool is_on_hands(const JointPositions& pose) const {

@@ -20,7 +20,7 @@ inline constexpr float kOverhead = 0.6f, kOverheadSlope = 200;
 
 // The largest bend of a hinge, and how far it bends the wrong way.
 struct HingeRange {
-  float most, back;
+  float max, back;
 };
 inline constexpr HingeRange kElbowRange = {150, 10}, kKneeRange = {140, 2};
 // Cosines of the angle around the limb between a bend and the exactly wrong direction, from not

@@ -70,13 +70,13 @@ Result<std::optional<JointSubset>> pick_figure(const Clip& clip, const RigOption
   std::string names;
   for (const Figure& figure : figures) names += (names.empty() ? "'" : ", '") + figure.name + "'";
   const Figure* best = nullptr;
-  int most = -1;
+  int max = -1;
   for (const Figure& figure : figures) {
     if (!options.figure.empty() && figure.name != options.figure) continue;
     const int rank =
         2 * count_given(clip.skeleton, options, figure_joints(clip.skeleton, figure.root)) +
         figure.moves;
-    if (rank > most) most = rank, best = &figure;
+    if (rank > max) max = rank, best = &figure;
   }
   if (!best) {
     return Error{"there is no figure '" + options.figure + "'; expected one of " + names};

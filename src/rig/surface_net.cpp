@@ -9,7 +9,7 @@ namespace panache {
 namespace {
 
 constexpr int kBlock = 4;  // Cells along a side of a block.
-constexpr float kMostCells = 2e6f;
+constexpr float kMaxCells = 2e6f;
 constexpr int kNone = -1;
 
 class SurfaceNet {
@@ -147,7 +147,7 @@ TriangleMesh surface_net(const std::function<float(Vec3)>& distance, Vec3 low, V
                          float cell) {
   const Vec3 size = high - low;
   const float cells = size.x * size.y * size.z / (cell * cell * cell);
-  if (cells > kMostCells) cell *= std::cbrt(cells / kMostCells);
+  if (cells > kMaxCells) cell *= std::cbrt(cells / kMaxCells);
   TriangleMesh out;
   while (!SurfaceNet(distance, low, high, cell).build(out)) {
     out = {};

@@ -9,14 +9,14 @@ namespace {
 
 // How many of the first members can be stepped together: different characters of one model.
 size_t count_together(std::span<const CrowdMember> members) {
-  const size_t most = std::min(members.size(), kRowsAtOnce);
-  for (size_t i = 1; i < most; ++i) {
+  const size_t max = std::min(members.size(), kRowsAtOnce);
+  for (size_t i = 1; i < max; ++i) {
     const Stylizer* character = members[i].character;
     const bool seen = std::any_of(members.begin(), members.begin() + i,
                                   [&](const CrowdMember& m) { return m.character == character; });
     if (seen || &character->model() != &members[0].character->model()) return i;
   }
-  return most;
+  return max;
 }
 
 // Prefetches the memory of a later character, a part at each stage of this one.

@@ -19,15 +19,15 @@ std::optional<double> find_cycle(const InputRing& ring, double at, double neares
                                  double farthest) noexcept {
   const HumanPositions here = ring.body(at), before = ring.body(at - kBeforeCycle);
   std::optional<double> best;
-  float least = kMaxDistance;
+  float min = kMaxDistance;
   const int candidates = static_cast<int>(std::floor((farthest - nearest) / kCandidates)) + 1;
   for (int c = 0; c < candidates; ++c) {
     const double away = nearest + c * kCandidates, to = at + away;
     const PoseDistance now = pose_distance(here, ring.body(to)),
                        then = pose_distance(before, ring.body(to - kBeforeCycle));
     const float mean = (now.mean + then.mean) / 2;
-    if (mean >= least || std::max(now.largest, then.largest) > kMaxDistanceEach) continue;
-    least = mean;
+    if (mean >= min || std::max(now.largest, then.largest) > kMaxDistanceEach) continue;
+    min = mean;
     best = away;
   }
   return best;

@@ -15,10 +15,10 @@ namespace panache {
 // frames blurs an impact: in a flight (FlightWatch::amount()), which brings the rate to 1, the head
 // is drawn to whole frames.
 inline double clip_advance(double frame, double rate, float flight) {
-  constexpr float kMost = 0.06f, kTurn = 6.2831853f;
+  constexpr float kMax = 0.06f, kTurn = 6.2831853f;
   const double next = frame + rate;
   const float share = std::max(0.0f, 2 * flight - 1);
-  return rate + static_cast<double>(-kMost * share *
+  return rate + static_cast<double>(-kMax * share *
                                     sine(kTurn * static_cast<float>(next - std::round(next))));
 }
 

@@ -99,8 +99,8 @@ Result<Gesture> Gesture::read(const Tensor& tensor, const std::string& key,
                  std::to_string(GesturePose::kSize) + " numbers"};
   }
   // Impossible movements would only be limited later.
-  constexpr float kMost = 10;
-  if (!std::ranges::all_of(tensor.values, [](float v) { return std::abs(v) <= kMost; })) {
+  constexpr float kMax = 10;
+  if (!std::ranges::all_of(tensor.values, [](float v) { return std::abs(v) <= kMax; })) {
     return Error{name + ": tensor '" + key + "' holds a number beyond 10 radians or metres"};
   }
   std::vector<GesturePose> points(static_cast<size_t>(shape[0]));

@@ -34,9 +34,9 @@ Quat turn_beyond(const GesturePose& pose, int parent, int joint) {
 
 // A vector in the course of a gesture.
 struct Course {
-  Vec3 peak = {};           // Where it is longest.
-  float most[3], least[3];  // Extremes of each coordinate,
-  bool most_first[3];       // and which comes first.
+  Vec3 peak = {};        // Where it is longest.
+  float max[3], min[3];  // Extremes of each coordinate,
+  bool max_first[3];     // and which comes first.
 };
 Course course_of(const std::vector<GesturePose>& points,
                  const std::function<Vec3(const GesturePose&)>& at) {
@@ -46,8 +46,8 @@ Course course_of(const std::vector<GesturePose>& points,
     if (length(v) > length(course.peak)) course.peak = v;
     const float numbers[3] = {v.x, v.y, v.z};
     for (int i = 0; i < 3; ++i) {
-      if (numbers[i] > course.most[i]) course.most[i] = numbers[i], course.most_first[i] = false;
-      if (numbers[i] < course.least[i]) course.least[i] = numbers[i], course.most_first[i] = true;
+      if (numbers[i] > course.max[i]) course.max[i] = numbers[i], course.max_first[i] = false;
+      if (numbers[i] < course.min[i]) course.min[i] = numbers[i], course.max_first[i] = true;
     }
   }
   return course;
@@ -63,9 +63,9 @@ Axis axis_of(const Course& course) {
                           std::abs(course.peak.z)};
   const int index = static_cast<int>(std::max_element(sizes, sizes + 3) - sizes);
   const float numbers[3] = {course.peak.x, course.peak.y, course.peak.z};
-  const auto [small, large] = std::minmax({course.most[index], -course.least[index]});
+  const auto [small, large] = std::minmax({course.max[index], -course.min[index]});
   const bool both = small > kAlike * large;
-  return {index, both ? course.most_first[index] : numbers[index] > 0, both};
+  return {index, both ? course.max_first[index] : numbers[index] > 0, both};
 }
 
 const char* side_word(bool left) { return left ? "left" : "right"; }

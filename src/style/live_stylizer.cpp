@@ -9,14 +9,14 @@ namespace panache {
 Result<void> LiveStylizer::check(const Model& model, const LiveOptions& options) {
   const struct {
     const char* name;
-    double value, most;
+    double value, max;
     const char* expected;
   } ranges[] = {
       {"max_lag", options.max_lag, LiveOptions::kMaxLag, "0 to 4"},
       {"max_lead", options.max_lead, PredictorNetwork::kMaxSeconds, "0 to 0.25"},
   };
-  for (const auto& [name, value, most, expected] : ranges) {
-    if (!(value >= 0 && value <= most)) {
+  for (const auto& [name, value, max, expected] : ranges) {
+    if (!(value >= 0 && value <= max)) {
       return Error{std::string(name) + " of " + std::to_string(value) + " seconds; expected " +
                    expected + " seconds"};
     }

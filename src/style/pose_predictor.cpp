@@ -86,11 +86,11 @@ PosePredictor::Predictions PosePredictor::ask_experts(double seconds) const noex
 // Fourth power: twice the error gives one sixteenth of the weight.
 PosePredictor::PerExpert PosePredictor::weights_of(const PerExpert& errors) noexcept {
   constexpr float kNothing = 1e-5f;  // Metres.
-  const float least = *std::min_element(errors.begin(), errors.end()) + kNothing;
+  const float min = *std::min_element(errors.begin(), errors.end()) + kNothing;
   PerExpert weights;
   float total = 0;
   for (size_t g = 0; g < kExperts; ++g) {
-    const float ratio = least / (errors[g] + kNothing);
+    const float ratio = min / (errors[g] + kNothing);
     total += weights[g] = ratio * ratio * ratio * ratio;
   }
   for (float& share : weights) share /= total;

@@ -3,7 +3,7 @@
 namespace panache {
 namespace {
 
-constexpr float kLeastHeel = 0.17f;  // Radians; the next style to those on tiptoe has 0.15.
+constexpr float kMinHeel = 0.17f;  // Radians; the next style to those on tiptoe has 0.15.
 
 }  // namespace
 
@@ -15,7 +15,7 @@ Stance stance_of(const StyleDelta& mean) noexcept {
     heel += turn.x / kFeet;
     stance.turn[f] = turn.y;
   }
-  if (heel > kLeastHeel) stance.heel = heel;
+  if (heel > kMinHeel) stance.heel = heel;
   return stance;
 }
 

@@ -22,9 +22,9 @@ float left_at(float swing) { return 1 - smooth_step(swing / 0.92f); }
 
 // A knee near full stretch straightens abruptly. If the gait does not reach as far as `wanted`, the
 // leg approaches `most` only gradually.
-float soft_reach(float wanted, float gait, float most) {
-  if (wanted <= gait || gait >= most) return std::min(wanted, std::max(gait, most));
-  return gait + (most - gait) * (1 - std::exp(-(wanted - gait) / (most - gait)));
+float soft_reach(float wanted, float gait, float max) {
+  if (wanted <= gait || gait >= max) return std::min(wanted, std::max(gait, max));
+  return gait + (max - gait) * (1 - std::exp(-(wanted - gait) / (max - gait)));
 }
 
 // A swinging toe clears the ground, most in the middle of the swing (`bump` 1).
@@ -40,9 +40,9 @@ float wrapped(float angle) {
 
 // Bends the leg so that its ankle reaches `ankle`; returns by how much the hip is too high.
 float reach_for(Vec3 ankle, Leg& leg) {
-  const float most = kMaxReach * (length(leg.knee - leg.hip) + length(leg.ankle - leg.knee));
+  const float max = kMaxReach * (length(leg.knee - leg.hip) + length(leg.ankle - leg.knee));
   const Vec3 way = ankle - leg.hip;
-  const float reach = soft_reach(length(way), length(leg.ankle - leg.hip), most);
+  const float reach = soft_reach(length(way), length(leg.ankle - leg.hip), max);
   const Vec3 knee_ahead = rotate(leg.lower, Vec3{0, 0, 1});
   const TwoBoneTurn turn =
       two_bone_ik(leg.hip, leg.knee, leg.ankle, leg.hip + normalized(way) * reach,
@@ -50,7 +50,7 @@ float reach_for(Vec3 ankle, Leg& leg) {
   leg.upper = turn.upper * leg.upper;
   leg.lower = turn.lower * leg.lower;
   const float level = way.x * way.x + way.z * way.z;
-  return most * most > level ? -way.y - std::sqrt(most * most - level) : 0.0f;
+  return max * max > level ? -way.y - std::sqrt(max * max - level) : 0.0f;
 }
 
 }  // namespace

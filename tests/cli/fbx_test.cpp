@@ -173,7 +173,7 @@ Clip two_walks() {
 std::pair<float, float> moved(const Clip& from, const Clip& to, const std::string& name,
                               Vec3 weights = {1, 1, 1}) {
   EXPECT_EQ(from.frames, to.frames);
-  std::array<float, 2> most = {};
+  std::array<float, 2> max = {};
   std::vector<Quat> rotations(from.joints());
   std::vector<Vec3> before(from.joints()), after(from.joints());
   for (int f = 0; f < std::min(from.frames, to.frames); ++f) {
@@ -182,12 +182,12 @@ std::pair<float, float> moved(const Clip& from, const Clip& to, const std::strin
     for (size_t j = 0; j < from.joints(); ++j) {
       const std::string& called = from.skeleton.joints[j].name;
       if (called != name && called != name + " (2)") continue;
-      float& of = most[called == name ? 0 : 1];
+      float& of = max[called == name ? 0 : 1];
       const Vec3 by = after[j] - before[j];
       of = std::max(of, length(Vec3{by.x * weights.x, by.y * weights.y, by.z * weights.z}));
     }
   }
-  return {most[0], most[1]};
+  return {max[0], max[1]};
 }
 
 TEST_F(Fbx, every_figure_is_styled_and_stays_where_it_was_though_names_are_equal) {

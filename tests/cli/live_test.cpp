@@ -284,6 +284,18 @@ TEST_F(LiveVerb, a_sender_that_gives_no_positions_is_styled_by_angles) {
   EXPECT_GT(out["Hips"].position.y, -0.3f);
 }
 
+TEST_F(LiveVerb, each_sender_moves_as_a_person) {
+  ASSERT_EQ(run({"walker", "-o", "walk.bvh", "--seconds", "3"}).exit, 0);
+  start_live({"--person", "random", "--seed", "4"}, nullptr);
+  play(2.5);
+  const std::map<std::string, Bone> in = last_of(sent_), out = last_of(got_);
+  EXPECT_LT(std::abs(dot(in.at("LeftUpperArm").rotation, out.at("LeftUpperArm").rotation)),
+            0.9999f);
+  const Ran ran = end_live();
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.err.find("sender 1 moves as person "), std::string::npos) << ran.err;
+}
+
 TEST_F(LiveVerb, a_mirrored_walk_swings_the_other_leg) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
   start_live({"--mirror"});

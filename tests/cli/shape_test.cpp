@@ -53,15 +53,15 @@ TEST_F(ShapeOptions, without_timing_and_an_arm_those_are_the_inputs) {
   ASSERT_EQ(b.frames, in.frames);
   // How far the rotations of joints whose name begins so are from those of another clip.
   const auto apart = [&](const Clip& other, const std::string& name) {
-    float most = 0;
+    float max = 0;
     for (int f = 0; f < b.frames; ++f) {
       for (size_t j = 0; j < b.joints(); ++j) {
         if (!b.skeleton.joints[j].name.starts_with(name)) continue;
         const Quat turn = conjugate(b.pose(f).rotations[j]) * other.pose(f).rotations[j];
-        most = std::max(most, length(turn.xyz()));
+        max = std::max(max, length(turn.xyz()));
       }
     }
-    return most;
+    return max;
   };
   constexpr float kRounding = 1e-5f;  // Of floats, and of six decimals of a degree.
   for (const char* joint : {"leftUpperArm", "leftLowerArm", "leftHand"}) {

@@ -221,8 +221,8 @@ TEST_F(Stylize, tells_how_far_the_styles_know_the_motion_when_asked) {
   add_gate(model, 1);
   write("model.safetensors", format_safetensors(model));
   const auto gate = nlohmann::json::parse(run(machine).out)[0]["clips"][0]["gate"];
-  const double mean = gate["mean"], least = gate["least"], eased = gate["eased"];
-  EXPECT_LT(least, 0.5);
+  const double mean = gate["mean"], min = gate["least"], eased = gate["eased"];
+  EXPECT_LT(min, 0.5);
   EXPECT_GT(mean, 0.5);
   EXPECT_GT(eased, 0);
   EXPECT_LT(eased, 0.5);
@@ -230,7 +230,7 @@ TEST_F(Stylize, tells_how_far_the_styles_know_the_motion_when_asked) {
   char line[128];
   std::snprintf(line, sizeof line,
                 "  walk.bvh: gate %.2f (least %.2f; %.0f %% of frames eased to the mean posture)\n",
-                mean, least, 100 * eased);
+                mean, min, 100 * eased);
   const Ran closed = run(verbose);
   EXPECT_EQ(closed.out, summary(closed) + line);
   EXPECT_EQ(closed.err, "");

@@ -222,10 +222,10 @@ TEST_F(DeformSkeleton, what_hangs_together_or_deforms_nothing_stays_as_it_is) {
 
 TEST_F(DeformSkeleton, what_has_fewer_joints_than_a_person_is_a_prop) {
   Clip clip = flat_walk().clip;
-  const auto keep = [&](size_t most) {
+  const auto keep = [&](size_t max) {
     size_t count = 0;
     for (Joint& joint : clip.skeleton.joints) {
-      if (joint.skin >= 0 && ++count > most) joint.skin = -1;
+      if (joint.skin >= 0 && ++count > max) joint.skin = -1;
     }
   };
   keep(11);

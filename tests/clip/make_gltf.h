@@ -53,13 +53,13 @@ struct GltfParts {
                      int target = 0) {
     const size_t accessor = add(numbers, type, components, target);
     for (size_t k = 0; k < components; ++k) {
-      float least = numbers[k], most = numbers[k];
+      float min = numbers[k], max = numbers[k];
       for (size_t i = k; i < numbers.size(); i += components) {
-        least = std::min(least, numbers[i]);
-        most = std::max(most, numbers[i]);
+        min = std::min(min, numbers[i]);
+        max = std::max(max, numbers[i]);
       }
-      json["accessors"][accessor]["min"].push_back(least);
-      json["accessors"][accessor]["max"].push_back(most);
+      json["accessors"][accessor]["min"].push_back(min);
+      json["accessors"][accessor]["max"].push_back(max);
     }
     return accessor;
   }

@@ -36,10 +36,10 @@ inline bool is_finite(const stick_pose& pose) {
 template <class Data>
 void spoil(stick_pose& pose, Data& data) {
   float* numbers = data.ConsumeBool() ? &pose.rotations[0][0] : &pose.translations[0][0];
-  const int most = numbers == &pose.rotations[0][0] ? 4 * STICK_JOINTS : 3 * STICK_JOINTS;
+  const int max = numbers == &pose.rotations[0][0] ? 4 * STICK_JOINTS : 3 * STICK_JOINTS;
   const int changes = data.ConsumeIntegralInRange(1, 6);
   for (int i = 0; i < changes; ++i) {
-    numbers[data.ConsumeIntegralInRange(0, most - 1)] = any_number(data);
+    numbers[data.ConsumeIntegralInRange(0, max - 1)] = any_number(data);
   }
 }
 

@@ -27,9 +27,9 @@ void put_into_glb(const std::string& bytes) {
 
 }  // namespace
 
-extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most,
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max,
                                           unsigned int seed) {
-  return fuzz::mutate_glb(data, size, most, seed);
+  return fuzz::mutate_glb(data, size, max, seed);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -4,9 +4,9 @@
 #include "framed_json.h"
 #include "use_motion.h"
 
-extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most,
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max,
                                           unsigned int seed) {
-  return panache::fuzz::mutate_glb(data, size, most, seed);
+  return panache::fuzz::mutate_glb(data, size, max, seed);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -34,7 +34,7 @@ const std::string& folder() {
 // The takes of rows that name a file of ours by its own name. Others stay unread: there are files
 // that never end.
 std::vector<Take> load(const std::vector<ManifestRow>& rows) {
-  constexpr size_t kMostTakes = 6;
+  constexpr size_t kMaxTakes = 6;
   static std::map<std::string, Take> known;
   std::vector<Take> takes;
   for (const ManifestRow& row : rows) {
@@ -47,7 +47,7 @@ std::vector<Take> load(const std::vector<ManifestRow>& rows) {
     }
     takes.push_back(known.at(row.path));
     takes.back().row = row;
-    if (takes.size() == kMostTakes) break;
+    if (takes.size() == kMaxTakes) break;
   }
   return takes;
 }

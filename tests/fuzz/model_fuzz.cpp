@@ -6,15 +6,15 @@
 #include "style/networks.h"
 #include "use_motion.h"
 
-extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most,
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max,
                                           unsigned int seed) {
   using namespace panache::fuzz;
-  if (size < 8 || seed % 2 == 0) return LLVMFuzzerMutate(data, size, most);
+  if (size < 8 || seed % 2 == 0) return LLVMFuzzerMutate(data, size, max);
   const size_t length = std::min<uint64_t>(read_number<uint64_t>(data), size - 8);
   std::string header(reinterpret_cast<char*>(data) + 8, length);
   const std::string rest(reinterpret_cast<char*>(data) + 8 + length, size - 8 - length);
-  mutate(header, std::min(most, size + 64) - std::min(most, size) + length);
-  return put(bytes_of(static_cast<uint64_t>(header.size())) + header + rest, data, most);
+  mutate(header, std::min(max, size + 64) - std::min(max, size) + length);
+  return put(bytes_of(static_cast<uint64_t>(header.size())) + header + rest, data, max);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -125,8 +125,8 @@ void check_channel(const aiNodeAnim& channel) {
 }
 
 // Our reader lets only numbers within bounds pass.
-Vec3d any_vec(FuzzedDataProvider& data, double most) {
-  const auto one = [&] { return data.ConsumeFloatingPointInRange(-most, most); };
+Vec3d any_vec(FuzzedDataProvider& data, double max) {
+  const auto one = [&] { return data.ConsumeFloatingPointInRange(-max, max); };
   const double x = one(), y = one(), z = one();
   return {x, y, z};
 }

@@ -35,13 +35,13 @@ inline void use(Result<std::unique_ptr<MotionFile>> file, const std::string& ext
     return;
   }
   // So that an input takes milliseconds.
-  constexpr size_t kMostJoints = 200;
-  constexpr int kMostFrames = 120;
+  constexpr size_t kMaxJoints = 200;
+  constexpr int kMaxFrames = 120;
   const size_t count = (*file)->clip_names().size();
   const Clip& clip = (*file)->clip(0);
   if (clip.joints() == 0 || clip.frames < 1) fail("a clip without joints or frames");
   const Result<Rig> rig = Rig::create(clip);
-  if (clip.joints() > kMostJoints || clip.frames > kMostFrames || count == 0) return;
+  if (clip.joints() > kMaxJoints || clip.frames > kMaxFrames || count == 0) return;
   std::vector<double> frames;
   for (int f = 0; f < clip.frames; ++f) frames.push_back(f);
   Clip changed = clip;

@@ -142,18 +142,18 @@ class Reference {
   // Largest difference to the host's bones, of which each is that joint of the walk.
   template <class Place>
   float apart(Place place) const {
-    float most = 0;
+    float max = 0;
     for (size_t b = 0; b < host.bones.size(); ++b) {
       const size_t j = place(b) + 1;
       const Bone& bone = host.bones[b];
       const float there[] = {bone.rotation.x, bone.rotation.y, bone.rotation.z, bone.rotation.w,
                              bone.position.x, bone.position.y, bone.position.z};
       for (size_t i = 0; i < 4; ++i)
-        most = std::max(most, std::abs(there[i] - rotations_[4 * j + i]));
+        max = std::max(max, std::abs(there[i] - rotations_[4 * j + i]));
       for (size_t i = 0; i < 3; ++i)
-        most = std::max(most, std::abs(there[4 + i] - translations_[3 * j + i]));
+        max = std::max(max, std::abs(there[4 + i] - translations_[3 * j + i]));
     }
-    return most;
+    return max;
   }
 
  private:
@@ -191,7 +191,7 @@ TEST_F(Godot, the_side_of_a_style_is_the_librarys) {
   EXPECT_TRUE(host.set(node, "model_path", std::string(kModel)));
   Reference reference(walk_), captured(walk_);
   reference.set_side(-1);
-  float most = 0;
+  float max = 0;
   for (int f = 0; f < 90; ++f) {
     if (f == 60) {
       host.set(node, "sides/old", 0.5);
@@ -202,9 +202,9 @@ TEST_F(Godot, the_side_of_a_style_is_the_librarys) {
     reference.step(f, host.seconds);
     captured.step(f, host.seconds);
     ASSERT_EQ(reference.apart(place), 0) << "frame " << f;
-    most = std::max(most, captured.apart(place));
+    max = std::max(max, captured.apart(place));
   }
-  EXPECT_GT(most, 0.01f);
+  EXPECT_GT(max, 0.01f);
   EXPECT_TRUE(host.errors.empty()) << host.errors.front();
   host.free_node(node);
 }
@@ -241,7 +241,7 @@ TEST_F(Godot, a_person_is_a_number_or_a_word_and_may_change) {
   void* node = host.make_node();
   host.set(node, "model_path", std::string(kModel));
   Reference reference(walk_, false, 0), nobody(walk_, false, 0);
-  float most = 0;
+  float max = 0;
   for (int f = 0; f < walk_.frames; ++f) {
     if (f == 30) {
       host.set(node, "person", int64_t{7});  // By a script.
@@ -264,9 +264,9 @@ TEST_F(Godot, a_person_is_a_number_or_a_word_and_may_change) {
     if (f < 30) {
       ASSERT_EQ(nobody.apart(place), 0) << "frame " << f;
     }
-    if (f < 120) most = std::max(most, nobody.apart(place));
+    if (f < 120) max = std::max(max, nobody.apart(place));
   }
-  EXPECT_GT(most, 0.01f);
+  EXPECT_GT(max, 0.01f);
   EXPECT_TRUE(host.errors.empty()) << host.errors.front();
   host.free_node(node);
 }
@@ -277,7 +277,7 @@ TEST_F(Godot, energy_is_the_librarys) {
   host.set(node, "model_path", std::string(kModel));
   Reference reference(walk_, false, 0), plain(walk_, false, 0);
   reference.set_energy(0.3f);
-  float most = 0;
+  float max = 0;
   for (int f = 0; f < 90; ++f) {
     if (f == 60) {
       host.set(node, "shape/energy", 1.7);
@@ -288,9 +288,9 @@ TEST_F(Godot, energy_is_the_librarys) {
     reference.step(f, host.seconds);
     plain.step(f, host.seconds);
     ASSERT_EQ(reference.apart(place), 0) << "frame " << f;
-    most = std::max(most, plain.apart(place));
+    max = std::max(max, plain.apart(place));
   }
-  EXPECT_GT(most, 0.01f);
+  EXPECT_GT(max, 0.01f);
   host.free_node(node);
 }
 

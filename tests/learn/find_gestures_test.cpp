@@ -44,11 +44,11 @@ TEST(FindGestures, a_glance_is_found_where_it_is_and_kept_with_the_style) {
     EXPECT_FALSE(learnt.file.tensors.contains("gesture.1"));
     const Gesture kept = *Gesture::read(learnt.file.tensors.at("gesture.0"), "gesture.0", "");
     EXPECT_FALSE(kept.moves_hips());
-    float most = 0;
+    float max = 0;
     for (float t = 0; t < kept.seconds(); t += 0.05f) {
-      most = std::max(most, way * kept.at(t).turns[index(head)].y);
+      max = std::max(max, way * kept.at(t).turns[index(head)].y);
     }
-    EXPECT_NEAR(most, 0.7f, 0.15f);
+    EXPECT_NEAR(max, 0.7f, 0.15f);
     EXPECT_EQ(learnt.file.metadata.at("gesture_rate"), "0.125") << "one in 8 s";
   }
 }

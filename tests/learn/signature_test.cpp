@@ -134,16 +134,16 @@ Signature of_leans(const std::vector<float>& leans) {
 
 TEST(Signatures, three_actions_of_four_are_enough_to_be_certain) {
   const size_t lean = trait("lean");
-  const Signature most = of_leans({0.2f, 0.2f, 0.2f, -0.05f});
-  EXPECT_TRUE(most.certain[lean]);
+  const Signature max = of_leans({0.2f, 0.2f, 0.2f, -0.05f});
+  EXPECT_TRUE(max.certain[lean]);
   EXPECT_FALSE(of_leans({0.3f, 0.3f, -0.05f, -0.05f}).certain[lean]);
   EXPECT_FALSE(of_leans({0.01f, 0.01f, 0.01f, 0.01f}).certain[lean]) << "too little";
   EXPECT_TRUE(of_leans({-0.2f, -0.2f, -0.2f, 0.05f}).certain[lean]);
   // They agree on the tempo, too, and not to the digit on how far they lean.
-  EXPECT_NEAR(most.change[kTempoTrait], -100 * std::log(1.2), 1e-4);
-  EXPECT_NEAR(most.deviation[kTempoTrait], 0, 1e-4);
-  EXPECT_TRUE(most.certain[kTempoTrait]);
-  EXPECT_GT(most.deviation[lean], 5);
+  EXPECT_NEAR(max.change[kTempoTrait], -100 * std::log(1.2), 1e-4);
+  EXPECT_NEAR(max.deviation[kTempoTrait], 0, 1e-4);
+  EXPECT_TRUE(max.certain[kTempoTrait]);
+  EXPECT_GT(max.deviation[lean], 5);
 }
 
 TEST_F(SignaturesTest, outputs_are_told_by_sign_and_amount) {

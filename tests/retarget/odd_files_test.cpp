@@ -23,13 +23,13 @@ float apart(const Clip& a, const Clip& b, int first = 0) {
   const std::vector<BodyPose> one = bodies(a), other = bodies(b);
   const float floor = Rig::create(a)->floor() - Rig::create(b)->floor();
   EXPECT_EQ(one.size(), other.size());
-  float most = 0;
+  float max = 0;
   for (size_t f = static_cast<size_t>(first); f < std::min(one.size(), other.size()); ++f) {
     for (int j = 0; j < kHumanJoints; ++j) {
-      most = std::max(most, length(one[f].joints[j] + Vec3{0, floor, 0} - other[f].joints[j]));
+      max = std::max(max, length(one[f].joints[j] + Vec3{0, floor, 0} - other[f].joints[j]));
     }
   }
-  return most;
+  return max;
 }
 
 // How far joints of the same name are from each other, in all frames.

@@ -222,7 +222,7 @@ TEST_F(AnatomyTest, a_lean_stops_before_the_body_falls) {
     const BodyChange asked = change;
     HumanPositions joints;
     changed_joints(body_, change, joints);
-    keep_balance(body_, joints, change);
+    keep_balance(body_, 1, joints, change);
     EXPECT_LE(moved(change), moved(asked) + 1e-6f) << degrees;  // Rounding.
     EXPECT_LT(moved(change), 0.135f) << degrees;
     // The upper body turns as one.

@@ -118,7 +118,7 @@ constexpr double kArmsOnNeckMeanDeg = 1.2, kArmsOnNeckMaxDeg = 12;
 constexpr double kArmsOnNeckMean = 0.085, kArmsOnNeckMax = 0.45;
 
 void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style, float strength,
-                                   double most_mean = kMeanDeg, double most = kMaxDeg) {
+                                   double max_mean = kMeanDeg, double max = kMaxDeg) {
   const std::vector<HumanPositions> want = styled(motion, style, strength);
   const double change = difference(want, styled(motion, style, 0)).mean_deg;
   for (const Maker& maker : makers()) {
@@ -129,7 +129,7 @@ void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style,
                 style.c_str(), off.mean_deg, off.max_deg,
                 std::string(human_joint_name(off.joint)).c_str(), plain.mean_deg, plain.max_deg,
                 std::string(human_joint_name(plain.joint)).c_str());
-    double mean = most_mean, max = most;
+    double mean = max_mean, max = max;
     if (maker.name == std::string(kArmsOnNeck)) {
       mean = std::max(kArmsOnNeckMeanDeg, plain.mean_deg + kArmsOnNeckMean * change);
       max = std::max(kArmsOnNeckMaxDeg, plain.max_deg + kArmsOnNeckMax * change);
@@ -226,16 +226,16 @@ TEST(AnyRig, the_gate_knows_a_motion_on_any_rig_and_of_any_proportions) {
   }
   for (const auto& [name, motion] : motions) {
     const double own = mean_gate(motion, "old");
-    double least = own, most = own;
+    double min = own, max = own;
     const auto note = [&](const std::string& of, const Clip& clip) {
       const double gate = mean_gate(clip, "old");
       std::printf("%-36s %-20s gate %.3f\n", name.c_str(), of.c_str(), gate);
-      least = std::min(least, gate), most = std::max(most, gate);
+      min = std::min(min, gate), max = std::max(max, gate);
     };
     for (const Maker& maker : makers()) note(maker.name, put_on(maker, motion).clip);
     for (const auto& [of, by] : bodies) note(of, of_proportions(motion, by));
     // What is hardly known depends on the body's proportions.
-    EXPECT_LT(most - least, own > 0.95 ? 0.05 : 0.2) << name;
+    EXPECT_LT(max - min, own > 0.95 ? 0.05 : 0.2) << name;
   }
 }
 
@@ -333,9 +333,9 @@ TEST(AnyRig, missing_joints_are_lived_with) {
       {{"Head"}, 0.28},
       {{"Spine1", "Spine2"}, 0.125},
       {{"Toe", "Neck", "Head", "Shoulder", "Spine", "Hand"}, 0.51}};
-  for (const auto& [words, most] : cases) {
+  for (const auto& [words, max] : cases) {
     const Clip clip = without(put_on(maker, motion).clip, words);
-    EXPECT_LE(difference(want, styled(clip, "old", 1)).mean_deg, most * change) << words[0];
+    EXPECT_LE(difference(want, styled(clip, "old", 1)).mean_deg, max * change) << words[0];
   }
 }
 

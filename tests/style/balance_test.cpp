@@ -29,7 +29,7 @@ Leant lean(float radians) {
   const float own = rotate(body.to_heading, centre_over_feet(body.joints)).z;
   changed_joints(body, change, joints);
   const float before = centre_over_feet(joints).z - own;
-  keep_balance(body, joints, change);
+  keep_balance(body, 1, joints, change);
   return {before, centre_over_feet(joints).z - own, change.rotations == asked.rotations};
 }
 

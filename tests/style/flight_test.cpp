@@ -33,7 +33,7 @@ const RestyleOptions kTempoEverywhere = [] {
   return options;
 }();
 
-float most(const FlightWatch& flights, double seconds) {
+float max(const FlightWatch& flights, double seconds) {
   float out = 0;
   for (double t = 0; t < seconds; t += 0.01) out = std::max(out, flights.amount(t));
   return out;
@@ -109,29 +109,29 @@ TEST(Flight, a_jump_is_one_at_a_few_poses_a_second) {
 }
 
 // A body whose height is given, its feet off the floor; poses come at uneven times.
-float most_at_uneven_times(const std::function<float(double)>& height) {
+float max_at_uneven_times(const std::function<float(double)>& height) {
   FlightWatch flights;
   HumanPositions body;
   const double gaps[] = {0.008, 0.008, 0.008, 0.008, 0.03, 0.03, 0.03};
   double time = 0;
-  float most = 0;
+  float max = 0;
   for (int i = 0; i < 200; ++i) {
     time += gaps[i % 7];
     body.fill({0, 1 + height(time), 0});
     flights.push(time, body);
-    most = std::max(most, flights.amount(time));
+    max = std::max(max, flights.amount(time));
   }
-  return most;
+  return max;
 }
 
 TEST(Flight, at_uneven_times_too_only_what_falls_flies) {
   for (const float speed : {-6.0f, -2.0f, 0.0f, 2.0f, 6.0f}) {
     const auto carried = [&](double t) { return 20 + speed * static_cast<float>(t); };
-    EXPECT_EQ(most_at_uneven_times(carried), 0) << speed;
+    EXPECT_EQ(max_at_uneven_times(carried), 0) << speed;
     const auto falls = [&](double t) {
       return carried(t) - static_cast<float>(test::kGravity * t * t / 2);
     };
-    EXPECT_GT(most_at_uneven_times(falls), 0.99f) << speed;
+    EXPECT_GT(max_at_uneven_times(falls), 0.99f) << speed;
   }
 }
 
@@ -146,15 +146,15 @@ TEST(Flight, who_plays_what_comes_learns_of_it_in_the_air) {
 }
 
 TEST(Flight, walks_runs_and_crouches_are_none) {
-  EXPECT_EQ(most(watch(test::walking_clip(300, 60)), 5), 0);
+  EXPECT_EQ(max(watch(test::walking_clip(300, 60)), 5), 0);
   const auto walker = *WalkerModel::load(PANACHE_SOURCE_DIR "/models/walker.safetensors");
   for (const float speed : {1.4f, 3.0f, kMaxWalkerSpeed}) {
     const Clip clip = walk_clip(walker, {.seconds = 5, .speed = speed});
-    EXPECT_LT(most(watch(clip), 5), 0.2f) << speed << " m/s";
+    EXPECT_LT(max(watch(clip), 5), 0.2f) << speed << " m/s";
   }
   // Feet on the floor, however fast the body goes down; and a body on a box stands high.
   Clip crouch = test::Jump(0.01).clip();
-  EXPECT_EQ(most(watch(crouch), 6), 0);
+  EXPECT_EQ(max(watch(crouch), 6), 0);
 }
 
 TEST(Flight, a_jump_falls_as_its_input_does_in_every_shipped_style) {

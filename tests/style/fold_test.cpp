@@ -49,7 +49,7 @@ float styled(float input, float added) {
   }
   HumanPositions joints;
   changed_joints(body, change, joints);
-  limit_fold(body, joints, change);
+  limit_fold(body, 1, joints, change);
   HumanPositions again;
   changed_joints(body, change, again);
   EXPECT_EQ(joints[index(HumanJoint::head)], again[index(HumanJoint::head)]);

@@ -261,8 +261,8 @@ TEST_F(GestureTest, no_joint_jumps) {
   });
   // m/s^2, at 60 frames a second. A foot that is set down stops with as much in the walk itself; a
   // knee that straightens after a dip adds 44, and a gesture that goes in steps of its points 123.
-  constexpr float kMost = 55;
-  float most_plainly = 0;
+  constexpr float kMax = 55;
+  float max_plain_jerk = 0;
   std::vector<HumanPositions> plainly, moved;
   for (int f = 0; f < clip_.frames; ++f) {
     plainly.push_back(world(before, f));
@@ -273,11 +273,11 @@ TEST_F(GestureTest, no_joint_jumps) {
       const auto jerk = [&](const std::vector<HumanPositions>& body) {
         return body[f][j] - body[f - 1][j] * 2 + body[f - 2][j];
       };
-      most_plainly = std::max(most_plainly, length(jerk(plainly)));
-      EXPECT_LT(length(jerk(moved) - jerk(plainly)), kMost / 3600) << f << " " << j;
+      max_plain_jerk = std::max(max_plain_jerk, length(jerk(plainly)));
+      EXPECT_LT(length(jerk(moved) - jerk(plainly)), kMax / 3600) << f << " " << j;
     }
   }
-  EXPECT_GT(most_plainly, kMost / 3600 / 2) << "the bound says something about this walk";
+  EXPECT_GT(max_plain_jerk, kMax / 3600 / 2) << "the bound says something about this walk";
 }
 
 // All that come with Panache, on a generated walk at full strength.
@@ -314,15 +314,15 @@ TEST_F(GestureTest, those_of_the_shipped_model_jump_nowhere) {
     const auto plain = accelerations(style, -1);
     for (int k = 0; k < gestures; ++k, ++count) {
       const auto with = accelerations(style, k);
-      float most = 0;
+      float max = 0;
       for (size_t f = 0; f < with.size(); ++f) {
         for (size_t j = 0; j < kHumanJoints; ++j)
-          most = std::max(most, length(with[f][j] - plain[f][j]));
+          max = std::max(max, length(with[f][j] - plain[f][j]));
       }
       // m/s^2; the styled walks themselves reach 80 to 100, an arm that meets the body 390. A joint
       // that is 20 cm elsewhere in the next frame has 720.
-      EXPECT_LT(most, 450) << model_->styles()[static_cast<size_t>(style)].name << " " << k;
-      EXPECT_GT(most, 0);
+      EXPECT_LT(max, 450) << model_->styles()[static_cast<size_t>(style)].name << " " << k;
+      EXPECT_GT(max, 0);
     }
   }
   EXPECT_GE(count, 20);
@@ -436,14 +436,14 @@ TEST_F(GestureTest, of_a_mirrored_style_are_mirrored) {
     StylizerOptions options;
     options.sides = {side, 1};
     Stylizer one = character(options);
-    float most = 0;
+    float max = 0;
     run(one, [&](int f) {
       if (f == 60) one.trigger(0, 0);
       if (!one.gesture()) return;
       const float turn = one.gesture()->turns[index(head)].y;
-      if (std::abs(turn) > std::abs(most)) most = turn;
+      if (std::abs(turn) > std::abs(max)) max = turn;
     });
-    return most;
+    return max;
   };
   EXPECT_NEAR(turn_at(1), kGlance, 0.1f);
   EXPECT_EQ(turn_at(-1), -turn_at(1));

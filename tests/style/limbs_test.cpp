@@ -124,17 +124,17 @@ TEST(EasedMove, a_push_that_comes_at_once_starts_and_stops_without_a_jerk) {
   EasedMove move;
   move.step({}, kFirst);
   std::array<float, 3> last{};
-  float most = 0, highest = 0;
+  float max = 0, highest = 0;
   for (int f = 0; f < 40; ++f) {
     move.step({{0.14f, 0, 0}, {}}, kPushTime);
     const float now = move.now().middle.x;
-    most = std::max(most, std::abs(now - 2 * last[0] + last[1]));
+    max = std::max(max, std::abs(now - 2 * last[0] + last[1]));
     highest = std::max(highest, now);
     last = {now, last[0], last[1]};
   }
   EXPECT_NEAR(last[0], 0.14f, 1e-3f);
   EXPECT_LT(highest, 0.15f);
-  EXPECT_LT(most, 20 * kPushTime.output * kPushTime.output * 1.001f);
+  EXPECT_LT(max, 20 * kPushTime.output * kPushTime.output * 1.001f);
 }
 
 // From the axis of the torso.

@@ -178,9 +178,9 @@ TEST(ReducedHeads, read_the_first_layer_too) {
   test::reduce_heads(file, 0.5f);
   StyleNetworks all(read(file));
   const auto a = answer(last, window_of(1), {1}), b = answer(all, window_of(1), {1});
-  float most = 0;
-  for (size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-  EXPECT_GT(most, 0.01f);
+  float max = 0;
+  for (size_t i = 0; i < a.size(); ++i) max = std::max(max, std::abs(a[i] - b[i]));
+  EXPECT_GT(max, 0.01f);
 }
 
 TEST(ReducedHeads, of_the_wrong_shape_are_rejected) {

@@ -72,14 +72,14 @@ class OddSteps : public testing::Test {
   }
   // How far apart the joints below the root are at most from a frame on, degrees.
   static float apart(const Clip& a, const Clip& b, int from) {
-    float most = 0;
+    float max = 0;
     for (int f = from; f < kFrames; ++f) {
       for (size_t j = 1; j < a.joints(); ++j) {
-        most = std::max(
-            most, length(log_rotation(conjugate(a.pose(f).rotations[j]) * b.pose(f).rotations[j])));
+        max = std::max(
+            max, length(log_rotation(conjugate(a.pose(f).rotations[j]) * b.pose(f).rotations[j])));
       }
     }
-    return most * 180 / std::numbers::pi_v<float>;
+    return max * 180 / std::numbers::pi_v<float>;
   }
 
   static constexpr int kOdd = 120, kFrames = kOdd + 320;

@@ -81,13 +81,13 @@ float error_of_bobbing(int frames, double ahead) {
     const float share = static_cast<float>(f % frames) / static_cast<float>(frames);
     return 1 + 0.05f * std::sin(6.2831853f * share + 0.8f);
   };
-  float most = 0;
+  float max = 0;
   for (int f = 0; f < 480; ++f) {
     push(predictor, f * kEighth, height(f), 0);
     const float wanted = height(f + static_cast<int>(std::lround(ahead / kEighth)));
-    if (f >= 400) most = std::max(most, std::abs(predictor.predict(ahead).body[4].y - wanted));
+    if (f >= 400) max = std::max(max, std::abs(predictor.predict(ahead).body[4].y - wanted));
   }
-  return most;
+  return max;
 }
 
 // What comes back in just that time is predicted by no motion at all, which is wrong of others.

@@ -141,10 +141,10 @@ TEST(RestyleLoop, a_loop_is_what_a_long_walk_comes_to) {
   const int frames = cycle.frames - 1;
   // The ninth cycle: where the walk is as it was, but for half a frame.
   int begin = 0;
-  float least = 1;
+  float min = 1;
   for (int f = kCycleBegin + 8 * frames - 20; f < kCycleBegin + 8 * frames + 20; ++f) {
     const float gap = seam_of(cut(walk_on, kCycleBegin, f)).gap;
-    if (gap < least) least = gap, begin = f;
+    if (gap < min) min = gap, begin = f;
   }
   const Rig rig = *Rig::create(cycle), long_rig = *Rig::create(walk_on);
   PosedRig reader(rig), long_reader(long_rig);

@@ -83,14 +83,14 @@ TEST_F(ShapeTest, starts_no_more_at_a_step_for_arms_that_are_off_or_that_come_ba
   Shape shape;
   part(shape, Region::left_arm) = part(shape, Region::right_arm) = 0;
   const auto start = [&](const Clip& clip) {
-    float most = 0;
+    float max = 0;
     for (int f = 12; f < clip.frames; ++f) {
       const auto height = [&](int frame) {
         return clip.pose(frame).translations[0].y - clip_.pose(frame).translations[0].y;
       };
-      most = std::max(most, std::abs(height(f) - 2 * height(f - 1) + height(f - 2)));
+      max = std::max(max, std::abs(height(f) - 2 * height(f - 1) + height(f - 2)));
     }
-    return most;
+    return max;
   };
   // The lift is eased whatever the shape. Were it not, it would start nearly three times as much.
   EXPECT_LT(start(run(shape)), 2 * start(run({})));

@@ -186,27 +186,27 @@ TEST_F(StylizerTest, behind_a_closed_gate_the_root_motion_is_the_inputs) {
 }
 
 // How far a style turns a body aside at most, radians.
-float most_turned(const Clip& clip, float strength) {
+float max_turned(const Clip& clip, float strength) {
   Stylizer character = *Stylizer::create(random_model(), *Rig::create(clip));
   Clip out = clip;
-  float most = 0;
+  float max = 0;
   for (int f = 0; f < clip.frames; ++f) {
     character.step(clip.pose(f), std::vector<float>{strength, 0}, clip.frame_time, out.pose(f));
-    most = std::max(most, std::abs(character.change().turn));
+    max = std::max(max, std::abs(character.change().turn));
   }
-  return most;
+  return max;
 }
 
 TEST_F(StylizerTest, a_style_turns_who_walks_but_not_who_gets_nowhere) {
   const Clip walk = test::walking_clip(240);
-  EXPECT_GT(most_turned(walk, 1), 0.05f);
-  EXPECT_LT(most_turned(walk, 4), 0.45f);
+  EXPECT_GT(max_turned(walk, 1), 0.05f);
+  EXPECT_LT(max_turned(walk, 4), 0.45f);
   Clip to_and_fro = walk;
   for (int f = 0; f < walk.frames; ++f) {
     const float seconds = static_cast<float>(f * walk.frame_time);
     to_and_fro.pose(f).translations[0].z = 0.2f * std::sin(2 * 3.14159265f * seconds);
   }
-  EXPECT_LT(most_turned(to_and_fro, 1), 0.25f * most_turned(walk, 1));
+  EXPECT_LT(max_turned(to_and_fro, 1), 0.25f * max_turned(walk, 1));
 }
 
 TEST_F(StylizerTest, the_gate_takes_its_time_but_not_at_the_start) {
@@ -214,14 +214,14 @@ TEST_F(StylizerTest, the_gate_takes_its_time_but_not_at_the_start) {
   const auto moved = [&](double seconds) {
     Stylizer character = *Stylizer::create(gated_model(1.5f), *Rig::create(clip_));
     Clip out = clip_;
-    float first = 0, most = 0;
+    float first = 0, max = 0;
     for (int f = 0; f < clip_.frames; ++f) {
       character.step(clip_.pose(f), std::vector<float>{1, 0}, {1 / 30.0, seconds}, out.pose(f));
       if (f == 0) first = character.gate();
-      most = std::max(most, std::abs(character.gate() - first));
+      max = std::max(max, std::abs(character.gate() - first));
     }
     EXPECT_LT(first, 1) << "the first step need not wait";
-    return most;
+    return max;
   };
   EXPECT_GT(moved(1 / 30.0), 0.02f);
   // 120 frames of a millionth of the time constant.

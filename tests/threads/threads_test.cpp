@@ -97,8 +97,8 @@ class RandomData {
   T PickValueInArray(const T (&values)[n]) {
     return values[random_() % n];
   }
-  std::string ConsumeRandomLengthString(size_t most) {
-    std::string out(random_() % (most + 1), '\0');
+  std::string ConsumeRandomLengthString(size_t max) {
+    std::string out(random_() % (max + 1), '\0');
     for (char& c : out) c = ConsumeIntegral<char>();
     return out;
   }

@@ -120,8 +120,8 @@ public static class Time {
 }
 
 public static class Mathf {
-  public static float Clamp(float value, float least, float most) =>
-      value < least ? least : value > most ? most : value;
+  public static float Clamp(float value, float min, float max) =>
+      value < min ? min : value > max ? max : value;
 }
 
 public static class Debug {

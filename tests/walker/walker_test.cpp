@@ -82,15 +82,15 @@ float skate(const Seen& seen) {
 // Largest third difference of a joint's positions at 30 frames a second, m/s^3.
 float largest_jerk(const Seen& seen) {
   const size_t h = static_cast<size_t>(seen.fps / 30);
-  float most = 0;
+  float max = 0;
   for (size_t f = 0; f + 3 * h < seen.frames.size(); ++f) {
     for (int j = 0; j < kHumanJoints; ++j) {
       const auto at = [&](size_t k) { return seen.frames[f + k * h][j]; };
       const Vec3 third = at(3) - at(2) * 3.0f + at(1) * 3.0f - at(0);
-      most = std::max(most, length(third) * 27000);
+      max = std::max(max, length(third) * 27000);
     }
   }
-  return most;
+  return max;
 }
 
 TEST(Walker, goes_as_far_as_its_speed_says) {
@@ -204,16 +204,16 @@ TEST(Walker, moves_the_same_at_any_rate) {
 TEST(Walker, stands_still_and_breathes) {
   Walker walker(shipped());
   const Seen seen = watch(walker, 20, 60, [](double) { return std::pair{0.0f, 0.0f}; });
-  float least = 1, most = -1;
+  float min = 1, max = -1;
   for (const HumanPositions& frame : seen.frames) {
     for (const HumanJoint toe : kToes) {
       EXPECT_LT(length(frame[index(toe)] - seen.frames[0][index(toe)]), 0.001f);
     }
-    least = std::min(least, frame[index(HumanJoint::hips)].x);
-    most = std::max(most, frame[index(HumanJoint::hips)].x);
+    min = std::min(min, frame[index(HumanJoint::hips)].x);
+    max = std::max(max, frame[index(HumanJoint::hips)].x);
   }
-  EXPECT_GT(most - least, 0.005f);  // Alive,
-  EXPECT_LT(most - least, 0.06f);   // and calm.
+  EXPECT_GT(max - min, 0.005f);  // Alive,
+  EXPECT_LT(max - min, 0.06f);   // and calm.
 }
 
 float higher_left(const HumanPositions& frame, HumanJoint left, HumanJoint right) {
@@ -226,7 +226,7 @@ TEST(Walker, standing_hips_tilt_with_the_weight_and_shoulders_stay_level) {
   const auto bent = [](const HumanPositions& body) {
     return body[index(HumanJoint::chest)].z - body[index(HumanJoint::hips)].z;
   };
-  float most = 0;
+  float max = 0;
   for (const HumanPositions& frame : seen.frames) {
     const float side = frame[index(HumanJoint::hips)].x;
     const float hip = higher_left(frame, HumanJoint::left_upper_leg, HumanJoint::right_upper_leg);
@@ -234,12 +234,12 @@ TEST(Walker, standing_hips_tilt_with_the_weight_and_shoulders_stay_level) {
     if (std::abs(side) > 0.005f) {
       EXPECT_GT(hip * side, 0);
     }
-    most = std::max(most, std::abs(hip));
+    max = std::max(max, std::abs(hip));
     EXPECT_NEAR(higher_left(frame, HumanJoint::left_upper_arm, HumanJoint::right_upper_arm), 0,
                 0.002f);
     EXPECT_NEAR(bent(frame), bent(seen.frames[0]), 0.001f);  // Nobody nods.
   }
-  EXPECT_GT(most, 0.003f);
+  EXPECT_GT(max, 0.003f);
 }
 
 TEST(Walker, who_turns_on_the_spot_has_her_weight_on_both_feet_in_turn) {

@@ -1,6 +1,6 @@
 // node moving-picture.mjs FOLDER LABEL=FILE.glb...: draws walking characters side by side, each on a
 // treadmill with its name below, as FOLDER/000.png and so on, 20 frames a second. Each shows whole
-// cycles of its own walk, so the frames are a loop; tempos change by less than a twentieth for that.
+// cycles of its own walk, so the frames are a loop; tempos change by less than a twentieth for that, by a tenth for twelve characters.
 // Prints the number of frames. Called by scripts/moving-picture.
 
 import { readFile } from 'node:fs/promises';
@@ -13,7 +13,7 @@ const [folder, ...walkers] = process.argv.slice(2);
 const labels = walkers.map((walker) => walker.split('=')[0]);
 const files = walkers.map((walker) => walker.slice(walker.indexOf('=') + 1));
 const three = fileURLToPath(new URL('node_modules/three', import.meta.url));
-const size = { width: 1200, height: 330 };
+const size = { width: 1200, height: Math.round(1980 / Math.max(6, files.length)) };
 
 const page = `<!doctype html>
 <link rel="icon" href="data:,">
@@ -46,11 +46,12 @@ const sun = new THREE.DirectionalLight(0xffffff, 2.4);
 sun.position.set(-1.5, 8, 2.5);
 sun.castShadow = true;
 sun.shadow.mapSize.set(4096, 2048);
-Object.assign(sun.shadow.camera, { left: -5, right: 5, top: 3, bottom: -3 });
+const far = Math.max(5, (${files.length} * spacing) / 2 + 1);
+Object.assign(sun.shadow.camera, { left: -far, right: far, top: 3, bottom: -3 });
 sun.shadow.radius = 5;
 scene.add(sun);
 
-const floor = new THREE.Mesh(new THREE.PlaneGeometry(20, 8), new THREE.ShadowMaterial({ opacity: 0.2 }));
+const floor = new THREE.Mesh(new THREE.PlaneGeometry(40, 8), new THREE.ShadowMaterial({ opacity: 0.2 }));
 floor.rotation.x = -Math.PI / 2;
 floor.position.y = 0.004;
 floor.receiveShadow = true;

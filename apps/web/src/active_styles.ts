@@ -4,7 +4,7 @@ import type { Style } from '../package/index.js';
 import { element } from './dom';
 import { capitalized } from './groups';
 import type { Page } from './page';
-import { kLeast, kMost } from './settings';
+import { kMin, kMax } from './settings';
 import { SideSwitch } from './side';
 import { Slider } from './slider';
 
@@ -40,7 +40,7 @@ export class ActiveStyles {
     const { name, description } = style;
     const slider = new Slider({
       id: `style-${encodeURIComponent(name)}`, title: capitalized(name),
-      hint: description || undefined, least: kLeast, most: kMost, rest: 0,
+      hint: description || undefined, min: kMin, max: kMax, rest: 0,
       onChange: (value) => this.page.setStrength(name, value),
       onReset: () => this.page.store.dropStyle(name),
     });

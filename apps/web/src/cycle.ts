@@ -22,7 +22,7 @@ export function findCycle(poses: readonly Float32Array[], minimum: number):
       if (distance < kSame) pairs.push([i, j, distance]);
     }
   }
-  const best = pairs.reduce((least, pair) => Math.min(least, pair[2]), Infinity);
+  const best = pairs.reduce((min, pair) => Math.min(min, pair[2]), Infinity);
   // Take the shortest cycle that closes about as well as the best.
   const good = pairs.filter((pair) => pair[2] <= kGood * best + kUnseen)
     .sort((a, b) => a[1] - a[0] - (b[1] - b[0]) || a[2] - b[2]);

@@ -1,6 +1,6 @@
 // Keyframes: the strength of a style over the time of a clip, interpolated linearly.
 
-import { bounded, kLeast, kMost } from './settings';
+import { bounded, kMin, kMax } from './settings';
 
 /** Seconds after the first frame, rounded to the millisecond, and a strength. */
 export type Key = readonly [seconds: number, strength: number];
@@ -8,7 +8,7 @@ export type Key = readonly [seconds: number, strength: number];
 const kSamePlace = 0.004;  // Seconds: less than half of any frame.
 
 const atMillisecond = (seconds: number) => Math.round(Math.max(0, seconds) * 1000) / 1000;
-const strengthOf = (value: number) => bounded(value, kLeast, kMost, 0);
+const strengthOf = (value: number) => bounded(value, kMin, kMax, 0);
 
 /** Interpolates like the library. There has to be at least one key, in ascending time. */
 export function strengthAt(keys: readonly Key[], seconds: number): number {
@@ -32,9 +32,9 @@ export function withKey(keys: readonly Key[], seconds: number, strength: number)
 /** Moves a key, at most to its neighbours or the end. */
 export function moved(keys: readonly Key[], index: number, seconds: number, strength: number,
     end: number): Key[] {
-  const least = index > 0 ? keys[index - 1][0] + 2 * kSamePlace : 0;
-  const most = index + 1 < keys.length ? keys[index + 1][0] - 2 * kSamePlace : end;
-  const time = atMillisecond(Math.max(least, Math.min(most, seconds)));
+  const min = index > 0 ? keys[index - 1][0] + 2 * kSamePlace : 0;
+  const max = index + 1 < keys.length ? keys[index + 1][0] - 2 * kSamePlace : end;
+  const time = atMillisecond(Math.max(min, Math.min(max, seconds)));
   return keys.map((key, i) => (i === index ? [time, strengthOf(strength)] as const : key));
 }
 

@@ -12,14 +12,14 @@ export interface Look {
 }
 
 const kNumbers = 7;
-const kMostVertices = 20000;  // Per mesh; larger meshes are subsampled.
+const kMaxVertices = 20000;  // Per mesh; larger meshes are subsampled.
 
 /** The world-space bounding box of the meshes in their current pose. */
 export function boxAround(meshes: readonly THREE.Mesh[]): THREE.Box3 {
   const box = new THREE.Box3(), point = new THREE.Vector3();
   for (const mesh of meshes) {
     const { count } = mesh.geometry.getAttribute('position');
-    const step = Math.ceil(count / kMostVertices);
+    const step = Math.ceil(count / kMaxVertices);
     for (let i = 0; i < count; i += step) {
       box.expandByPoint(mesh.getVertexPosition(i, point).applyMatrix4(mesh.matrixWorld));
     }

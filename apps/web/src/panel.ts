@@ -88,7 +88,7 @@ function presets(store: Store) {
 function amountSliders(store: Store, amounts: readonly (typeof kAmounts)[number][]) {
   return amounts.map((key) => {
     const slider = new Slider({
-      id: `amount-${key}`, title: capitalized(key), hint: kAmountHints[key], least: 0, most: 2, rest: 1,
+      id: `amount-${key}`, title: capitalized(key), hint: kAmountHints[key], min: 0, max: 2, rest: 1,
       onChange: (value) => store.set({ [key]: value }),
     });
     store.listen((settings) => slider.show(settings[key]));

@@ -96,11 +96,11 @@ export class Plots {
           (m) => m.strengths.find(([n]) => n === name)?.[1] ?? 0);
       }
     });
-    for (const [name, least, most, marks] of kLines) {
+    for (const [name, min, max, marks] of kLines) {
       this.#paint(name, (context, width, height) => {
-        this.#scale(context, width, height, least, most, marks);
+        this.#scale(context, width, height, min, max, marks);
         context.strokeStyle = colour('accent');
-        this.#line(context, width, height, now, least, most, (m) => m[name]);
+        this.#line(context, width, height, now, min, max, (m) => m[name]);
       });
     }
     this.#paint('contacts', (context, width, height) => {
@@ -118,10 +118,10 @@ export class Plots {
     });
     this.#paint('steps', (context, width, height) => {
       const bins = histogram(this.#steps, kBins, kBinMicroseconds);
-      const most = Math.max(1, ...bins);
+      const max = Math.max(1, ...bins);
       context.fillStyle = colour('accent');
       bins.forEach((count, i) => {
-        const tall = (count / most) * (height - 14);
+        const tall = (count / max) * (height - 14);
         context.fillRect((i * width) / kBins + 0.5, height - 12 - tall, width / kBins - 1, tall);
       });
       context.fillStyle = colour('soft');
@@ -137,11 +137,11 @@ export class Plots {
     return width * (1 - (now - time) / kSeconds);
   }
 
-  #scale(context: CanvasRenderingContext2D, width: number, height: number, least: number,
-      most: number, marks: number[]) {
+  #scale(context: CanvasRenderingContext2D, width: number, height: number, min: number,
+      max: number, marks: number[]) {
     context.strokeStyle = context.fillStyle = colour('soft');
     for (const mark of marks) {
-      const y = height - 3 - ((mark - least) / (most - least)) * (height - 6);
+      const y = height - 3 - ((mark - min) / (max - min)) * (height - 6);
       context.globalAlpha = 0.35;
       context.lineWidth = 1;
       context.beginPath();
@@ -154,12 +154,12 @@ export class Plots {
   }
 
   #line(context: CanvasRenderingContext2D, width: number, height: number, now: number,
-      least: number, most: number, value: (moment: Moment) => number) {
+      min: number, max: number, value: (moment: Moment) => number) {
     context.lineWidth = 1.8;
     context.lineJoin = 'round';
     context.beginPath();
     for (const m of this.#moments) {
-      const y = height - 3 - ((value(m) - least) / (most - least)) * (height - 6);
+      const y = height - 3 - ((value(m) - min) / (max - min)) * (height - 6);
       context.lineTo(this.#across(width, now, m.time), y);
     }
     context.stroke();

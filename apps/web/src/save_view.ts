@@ -9,7 +9,7 @@ import type { Stage } from './stage';
 const kPictures = [[1280, 720], [1920, 1080], [3840, 2160], [1080, 1080], [1080, 1920]] as const;
 const kLoops = [[640, 360], [480, 480], [360, 640], [320, 240]] as const;
 const kLargestLoop = 800;
-const kLeast = 16;
+const kMin = 16;
 
 interface SizeDialog {
   title: string;
@@ -27,7 +27,7 @@ interface SizeDialog {
 /** Asks for the size of a picture or a loop. */
 function askSize(what: SizeDialog) {
   const field = (id: string, title: string) => element('input', { type: 'number', id,
-    'aria-label': title, min: kLeast, max: what.largest, step: 1, required: true });
+    'aria-label': title, min: kMin, max: what.largest, step: 1, required: true });
   const width = field('picture-width', 'Width, pixels');
   const height = field('picture-height', 'Height, pixels');
   const set = (wide: number, high: number) => {

@@ -3,8 +3,8 @@
 import type { Person, Shape, Timing } from '../package/index.js';
 import { fromText, toText, type Key } from './keys';
 
-export const kLeast = -0.5;
-export const kMost = 2;
+export const kMin = -0.5;
+export const kMax = 2;
 
 export const kRegions = ['legs', 'torso', 'leftArm', 'rightArm'] as const;
 export const kAmounts =
@@ -51,9 +51,9 @@ export const kDefaults: Readonly<Settings> = {
 export const kOpening: Readonly<Settings> = { ...kDefaults, styles: { old: 1 } };
 
 /** Clamps to the bounds and rounds to two decimals; returns `otherwise` if not finite. */
-export function bounded(value: number, least: number, most: number, otherwise: number): number {
+export function bounded(value: number, min: number, max: number, otherwise: number): number {
   if (!Number.isFinite(value)) return otherwise;
-  return Math.round(Math.min(most, Math.max(least, value)) * 100) / 100 || 0;
+  return Math.round(Math.min(max, Math.max(min, value)) * 100) / 100 || 0;
 }
 
 // Styles have a prefix in the address, as a learnt style may have the name of a setting.
@@ -102,7 +102,7 @@ export function fromAddress(text: string, styles: readonly string[],
   for (const [key, value] of given) {
     const number = value.trim() === '' ? NaN : Number(value);
     const setStyle = (name: string) => {
-      const strength = bounded(number, kLeast, kMost, 0);
+      const strength = bounded(number, kMin, kMax, 0);
       if (strength !== 0) settings.styles[name] = strength;
     };
     const setKeys = (name: string) => {
@@ -150,7 +150,7 @@ export function personOf({ person }: Settings): Person {
 }
 
 const kTogether = 500;  // Milliseconds; closer changes, as in a drag, are undone together.
-const kMostSteps = 200;
+const kMaxSteps = 200;
 
 /** Holds the settings, notifies listeners of changes, and undoes changes. */
 export class Store {
@@ -170,7 +170,7 @@ export class Store {
     const now = performance.now();
     if (now - this.#lastChange >= kTogether) {
       this.#done.push(this.settings);
-      if (this.#done.length > kMostSteps) this.#done.shift();
+      if (this.#done.length > kMaxSteps) this.#done.shift();
     }
     this.#lastChange = now;
     this.#undone = [];

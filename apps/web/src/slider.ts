@@ -7,8 +7,8 @@ export interface SliderOptions {
   id: string;
   title: string;
   hint?: string;
-  least: number;
-  most: number;
+  min: number;
+  max: number;
   /** The value after a reset. */
   rest: number;
   onChange(value: number): void;
@@ -23,8 +23,8 @@ export class Slider {
   #reset: HTMLButtonElement;
 
   constructor(private options: SliderOptions) {
-    const { id, title, hint, least, most } = options;
-    const bounds = { min: least, max: most, step: 0.01 };
+    const { id, title, hint, min, max } = options;
+    const bounds = { min: min, max: max, step: 0.01 };
     this.range = element('input', { type: 'range', id, ...bounds, title: hint });
     this.#field = element('input', {
       type: 'number', ...bounds, 'aria-label': `${title}, exact`, inputmode: 'decimal',
@@ -36,13 +36,13 @@ export class Slider {
     }, { class: 'reset', ...hinted(`Reset ${title}`) });
     const label = element('label', { for: id, title: hint }, title);
     // Marks at the reset value and at 1.
-    const share = (value: number) => (value - least) / (most - least);
+    const share = (value: number) => (value - min) / (max - min);
     const marks = `--rest: ${share(options.rest)}; --one: ${share(1)}`;
     this.row = element('div', { class: 'slider', style: marks },
       label, this.range, this.#field, this.#reset);
     this.range.addEventListener('input', () => this.#change(Number(this.range.value)));
     this.#field.addEventListener('change', () => {
-      this.#change(bounded(this.#field.valueAsNumber, least, most, options.rest));
+      this.#change(bounded(this.#field.valueAsNumber, min, max, options.rest));
       this.#field.value = this.range.value;
     });
     this.range.addEventListener('dblclick', reset);
@@ -51,11 +51,11 @@ export class Slider {
 
   /** Shows a value without calling onChange. */
   show(value: number) {
-    const { least, most, rest } = this.options;
+    const { min, max, rest } = this.options;
     const text = String(value);
     if (this.range.value !== text) this.range.value = text;
     if (document.activeElement !== this.#field) this.#field.value = value.toFixed(2);
-    const share = (v: number) => String((v - least) / (most - least));
+    const share = (v: number) => String((v - min) / (max - min));
     this.row.style.setProperty('--from', share(Math.min(value, rest)));
     this.row.style.setProperty('--to', share(Math.max(value, rest)));
     this.row.classList.toggle('changed', value !== rest);
@@ -63,8 +63,8 @@ export class Slider {
   }
 
   #change(value: number) {
-    const { least, most, rest, onChange } = this.options;
-    const good = bounded(value, least, most, rest);
+    const { min, max, rest, onChange } = this.options;
+    const good = bounded(value, min, max, rest);
     this.show(good);
     onChange(good);
   }

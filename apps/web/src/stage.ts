@@ -347,13 +347,13 @@ export class Stage {
   #fit(seconds: number) {
     this.#slowness += 0.05 * ((seconds > 0.024 ? 1 : 0) - this.#slowness);
     let ratio = this.#size.ratio || Math.min(this.#sharpest, window.devicePixelRatio);
-    const least = Math.min(ratio, this.#fast ? 0.6 : 0.5);
+    const min = Math.min(ratio, this.#fast ? 0.6 : 0.5);
     if (this.#slowness > 0.7 && this.#sun.castShadow && ratio <= 1) {
       this.#sun.castShadow = this.#renderer.shadowMap.enabled = false;
       this.#ground.spots = true;
       this.#slowness = 0;
-    } else if (this.#slowness > 0.7 && ratio > least) {
-      ratio = Math.max(least, ratio * 0.8);
+    } else if (this.#slowness > 0.7 && ratio > min) {
+      ratio = Math.max(min, ratio * 0.8);
       this.#slowness = 0;
     }
     const width = this.canvas.clientWidth, height = this.canvas.clientHeight;

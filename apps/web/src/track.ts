@@ -5,7 +5,7 @@ import { button, element, find, placeIn } from './dom';
 import { styleOptions } from './groups';
 import { moved, strengthAt, withKey, type Key } from './keys';
 import type { Page } from './page';
-import { kLeast, kMost } from './settings';
+import { kMin, kMax } from './settings';
 
 const kPush = 0.05;
 const kDoubleClick = 1000;  // Milliseconds, for slow fingers.
@@ -97,7 +97,7 @@ export class Track {
     return this.#seconds > 0 ? Math.min(100, (100 * seconds) / this.#seconds) : 0;
   }
   #down(strength: number) {
-    return (100 * (kMost - strength)) / (kMost - kLeast);
+    return (100 * (kMax - strength)) / (kMax - kMin);
   }
 
   #show() {
@@ -158,7 +158,7 @@ export class Track {
   #listenToPointer() {
     const place = (event: PointerEvent): Key => {
       const [x, y] = placeIn(this.#field, event);
-      return [Math.min(1, Math.max(0, x)) * this.#seconds, kMost - y * (kMost - kLeast)];
+      return [Math.min(1, Math.max(0, x)) * this.#seconds, kMax - y * (kMax - kMin)];
     };
     this.#field.addEventListener('pointerdown', (event) => {
       if (event.button !== 0) return;

@@ -24,8 +24,8 @@ function pass(from: THREE.Material, opacity: number, isColour: boolean): THREE.M
   Object.assign(out, { transparent: true, forceSinglePass: true, depthWrite: !isColour,
     colorWrite: isColour });
   if (out instanceof THREE.MeshPhysicalMaterial) out.transmission = 0;
-  const least = from.alphaTest || (from.transparent ? (isColour ? kSeen : kSurface) : 0);
-  out.alphaTest = least * opacity;
+  const min = from.alphaTest || (from.transparent ? (isColour ? kSeen : kSurface) : 0);
+  out.alphaTest = min * opacity;
   out.opacity = from.opacity * opacity;
   if (out instanceof THREE.ShaderMaterial) out.uniforms.opacity.value = out.opacity;
   return out;

@@ -43,8 +43,8 @@ struct minmax_result {
 };
 template <class Range>
 constexpr auto minmax(Range&& range) {
-  const auto [least, most] = std::minmax_element(std::begin(range), std::end(range));
-  return minmax_result<std::iter_value_t<decltype(least)>>{*least, *most};
+  const auto [min, max] = std::minmax_element(std::begin(range), std::end(range));
+  return minmax_result<std::iter_value_t<decltype(min)>>{*min, *max};
 }
 }  // namespace std::ranges
 #endif

@@ -199,7 +199,7 @@ function signatures([name, system]) {
   const styles = Object.keys(report.signatures).filter((style) => made[style]);
   const largest = ({ key }) => Math.max(1e-9, ...Object.values(report.signatures).concat(Object.values(made))
     .map((of) => Math.abs(of[key] ?? 0)));
-  const bar = (value, most) => cell(fixed(value, 1), { share: isNumber(value) ? Math.abs(value) / most : undefined });
+  const bar = (value, max) => cell(fixed(value, 1), { share: isNumber(value) ? Math.abs(value) / max : undefined });
   return table('style', [
     ...report.traits.map((trait) => ({ label: trait.label, columns: ['real', name] })),
     { label: 'outputs', columns: ['right sign', 'right amount'] },
@@ -280,6 +280,23 @@ function foresight() {
       const best = bestOf(values, 'lower', 2);
       return values.map((value, i) => cell(fixed(value, 2), { best: best[i] }));
     }) })), name);
+  });
+}
+
+function persons() {
+  return systems.flatMap(([name, { persons }]) => {
+    if (!persons) return [];
+    const { real, seeds, styled, others } = persons;
+    const apart = (of) => [number(of.median_cm, 2), number(of.p90_cm, 2), number(of.told, 3)];
+    return [
+      table('persons', [{ label: 'apart, cm', columns: ['median', '90 %'] }, { label: '', columns: ['told'] }],
+        [{ name: `${real.people} real people`, cells: apart(real) },
+          { name: plural(seeds.seeds, 'seed'), cells: apart(seeds) }], name),
+      table('of them', [{ label: '', columns: ['seeds outside 95 % of people', 'styles told with a person', 'without'] },
+        { label: 'on other motion', columns: ['jerk', '90 %', 'beyond limits', 'jumps'] }],
+      [{ name: 'seeds', cells: [number(seeds.outside, 3), number(styled.told, 3), number(styled.told_without, 3),
+        number(others.jerk_median, 2), number(others.jerk_p90, 2), number(others.beyond_limits, 4),
+        number(others.jumps, 3)] }], name)];
   });
 }
 
@@ -430,6 +447,10 @@ const SECTIONS = [
     'Mean joint error in centimetres when the input is predicted, continued at constant velocity, or held. ' +
     'Live, a style that is faster than its input needs prediction.',
     foresight],
+  ['persons', 'Persons',
+    'People as a classifier sees them in walks, and seeds on walks of others; styles of performers on ten persons ' +
+    'each; and other motion as persons, against its input.',
+    persons],
   ['strips', 'Strips',
     "The same time span in each row. The body's left is lighter.",
     () => [...document.getElementById('drawn-strips').content.children]],

@@ -39,8 +39,8 @@ function bestOf(values, better, digits) {
   const shortfall = { higher: (v) => -v, lower: (v) => v, nearest_one: (v) => Math.abs(v - 1) }[better];
   const measured = values.filter(isNumber);
   if (measured.length < 2 || !shortfall) return values.map(() => false);
-  const least = measured.reduce((a, b) => (shortfall(b) < shortfall(a) ? b : a));
-  return values.map((value) => isNumber(value) && fixed(value, digits) === fixed(least, digits));
+  const min = measured.reduce((a, b) => (shortfall(b) < shortfall(a) ? b : a));
+  return values.map((value) => isNumber(value) && fixed(value, digits) === fixed(min, digits));
 }
 
 // A table cell: `share`, 0 to 1, is the length of the bar below the number.

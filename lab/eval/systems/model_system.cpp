@@ -92,8 +92,4 @@ double ModelSystem::step_us(const TestInput& input) const {
   return 1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / kSteps;
 }
 
-std::shared_ptr<const Model> ModelSystem::predicting_model() const {
-  return model_->predictor() ? model_ : nullptr;
-}
-
 }  // namespace panache

@@ -17,7 +17,7 @@ class ModelSystem : public System {
   std::unique_ptr<InstantAnswers> instants(double strength) const override;
   PoseLayout layout() const override { return model_->layout(); }
   double step_us(const TestInput& input) const override;
-  std::shared_ptr<const Model> predicting_model() const override;
+  std::shared_ptr<const Model> model() const override { return model_; }
 
  private:
   std::shared_ptr<const Model> model_;

@@ -18,7 +18,7 @@ using enum HumanJoint;
 
 // A change is reduced from this much before a limit on; if the input is near or beyond the limit,
 // over at least kLeast beyond the input.
-constexpr float kSoft = in_radians(10), kLeast = in_radians(2);
+constexpr float kSoft = in_radians(10), kMin = in_radians(2);
 // Time constants of rising and falling shares. With half of the first, jumps of legs and hands by
 // more than 6 cm in a frame were three times as frequent; with the first for both, those of knees.
 constexpr float kTakeSeconds = 0.16f, kGiveSeconds = 0.3f;
@@ -35,7 +35,7 @@ constexpr float kUnknownWrist = in_radians(40);
 // limit, negative within it. What is left of it, t -> t room / (t + room), stays within `room` of
 // where it begins, and begins without a kink.
 float share_back(float out, float in) {
-  const float from = std::max(in, -kSoft), room = std::max(kLeast, -from), over = out - from;
+  const float from = std::max(in, -kSoft), room = std::max(kMin, -from), over = out - from;
   return over > 0 ? over / (over + room) * (over / (out - in)) : 0.0f;
 }
 
@@ -137,7 +137,7 @@ class Limits {
     const auto beyond = [&](Vec3 thigh, Vec3 shin) {
       const Vec3 out = {thigh.x * kOutward[side], thigh.y, thigh.z};
       const Bend bend = unsafe_bend_of(thigh, shin, kKneeHinge);
-      const float knee = std::max(bend.angle - kKneeHinge.most, bend.wrong - kKneeHinge.back);
+      const float knee = std::max(bend.angle - kKneeHinge.max, bend.wrong - kKneeHinge.back);
       return dot(out, kHipSwings.rest) < kHipSwings.safe
                  ? std::max(swing_beyond(out, kHipSwings), knee)
                  : knee;
@@ -154,11 +154,11 @@ class Limits {
     const Vec3 above = changed(base, upper, upper_way), below = changed(base, lower, lower_way);
     const Bend out = unsafe_bend_of(above, below, hinge);
     float wanted = 0;
-    if (out.wrong > 0 || out.angle > hinge.most - kSoft) {
+    if (out.wrong > 0 || out.angle > hinge.max - kSoft) {
       const Bend in =
           bend_of(seen_in(base.frame, upper_way), seen_in(base.frame, lower_way), hinge);
       const float wrong = std::max(0.0f, out.wrong - in.wrong);
-      wanted = std::max(share_back(out.angle - hinge.most, in.angle - hinge.most),
+      wanted = std::max(share_back(out.angle - hinge.max, in.angle - hinge.max),
                         wrong / (wrong + hinge.back));
     }
     ease(share, wanted);

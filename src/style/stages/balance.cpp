@@ -32,14 +32,15 @@ Vec3 centre_over_feet(const HumanPositions& joints) noexcept {
   return sum / kJoints - feet / (2.0f * kFeet);
 }
 
-void keep_balance(const HeadingBody& body, HumanPositions& joints, BodyChange& change) noexcept {
+void keep_balance(const HeadingBody& body, float amount, HumanPositions& joints,
+                  BodyChange& change) noexcept {
   Vec3 moved = centre_over_feet(joints) - rotate(body.to_heading, centre_over_feet(body.joints));
   moved.y = 0;
   const float far = length(moved), over = far - kFree;
   if (!(over > 0)) return;
   const Vec3 way = moved / far;
   // The remaining part of `over`, t -> t room / (t + room), is smooth at 0.
-  const float back = over * over / (over + kRoom);
+  const float back = amount * over * over / (over + kRoom);
 
   Vec3 upper;  // The part of the centre that turns, from mid-hip.
   for (int j = index(hips); j <= index(right_hand); ++j) upper += joints[j] / kJoints;

@@ -14,7 +14,8 @@ Vec3 torso_way(const HumanPositions& joints) noexcept;
 // If a change moves the body's centre (the mean of its joints) horizontally away from its feet, the
 // upper body turns back about the hips, by no more than the style leans it that way: softly beyond
 // 8 cm, so that 20 cm become about 12. Up to 8 cm nothing changes at all. `joints`:
-// changed_joints(); updated.
-void keep_balance(const HeadingBody& body, HumanPositions& joints, BodyChange& change) noexcept;
+// changed_joints(); updated. `amount`: how active any style is.
+void keep_balance(const HeadingBody& body, float amount, HumanPositions& joints,
+                  BodyChange& change) noexcept;
 
 }  // namespace panache

@@ -65,8 +65,9 @@ void carry_out(Anatomy& anatomy, StageWork& work) noexcept {
 
 void carry_out(Balance&, StageWork& work) noexcept {
   changed_joints(work.body, work.change, work.joints);
-  limit_fold(work.body, work.joints, work.change);
-  keep_balance(work.body, work.joints, work.change);
+  // Not for the energy of the input alone, which leaves hips and legs to the bit.
+  limit_fold(work.body, work.asked.amount, work.joints, work.change);
+  keep_balance(work.body, work.asked.amount, work.joints, work.change);
 }
 
 void carry_out(LegsApart& legs, StageWork& work) noexcept {

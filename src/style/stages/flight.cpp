@@ -87,7 +87,7 @@ void FlightWatch::judge(int sample) noexcept {
 }
 
 float FlightWatch::amount(double time) const noexcept {
-  float most = 0;
+  float max = 0;
   for (size_t f = 0; f < flights_.size(); ++f) {
     const Flight& flight = flights_[f];
     double lasts = flight.end - flight.start;
@@ -101,10 +101,10 @@ float FlightWatch::amount(double time) const noexcept {
                  after = (time - flight.end - kAfter) / kEaseOut;
     const double near = 1 - std::max(before, after);
     const double whole = (lasts - kTooShort) / (kWhole - kTooShort);
-    most = std::max(most,
-                    smooth_step(static_cast<float>(near)) * smooth_step(static_cast<float>(whole)));
+    max = std::max(max,
+                   smooth_step(static_cast<float>(near)) * smooth_step(static_cast<float>(whole)));
   }
-  return most;
+  return max;
 }
 
 }  // namespace panache

@@ -27,12 +27,14 @@ float share_above_floor(const HumanPositions& world) noexcept {
   return smooth_step((world[index(head)].y - kLowHead) / (kHighHead - kLowHead));
 }
 
-void limit_fold(const HeadingBody& body, HumanPositions& joints, BodyChange& change) noexcept {
+void limit_fold(const HeadingBody& body, float amount, HumanPositions& joints,
+                BodyChange& change) noexcept {
   const float own = lean(torso_way(body.joints));
   if (own <= kUprightLean) return;
   const Vec3 now = torso_way(joints);
   const float added = lean(now) - own - kRounding;
-  const float back = added * smooth_step((own - kUprightLean) / (kBentLean - kUprightLean));
+  const float back =
+      amount * added * smooth_step((own - kUprightLean) / (kBentLean - kUprightLean));
   if (!(back > 0)) return;
   const Quat turn = axis_angle(normalized(cross(now, Vec3{0, 1, 0})), back);
   for (int j = index(hips); j <= index(right_hand); ++j) {

@@ -12,6 +12,8 @@ float share_above_floor(const HumanPositions& world) noexcept;
 // A bent style adds its lean to the input's: in a squat, a jump or a fall it would push the head
 // between the knees or through the floor. Turns the upper body back by a share of the torso's added
 // lean: 0 if the input is upright, 1 if it bends down. `joints`: changed_joints(); updated.
-void limit_fold(const HeadingBody& body, HumanPositions& joints, BodyChange& change) noexcept;
+// `amount`: how active any style is.
+void limit_fold(const HeadingBody& body, float amount, HumanPositions& joints,
+                BodyChange& change) noexcept;
 
 }  // namespace panache

@@ -70,9 +70,9 @@ void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Sta
   for (int f = 0; f < kFeet; ++f) {
     const int ankle = index(kAnkles[f]), toe = index(kToes[f]);
     Quat& foot = change.rotations[ankle];
-    const float least = std::min(0.0f, stance.turn[f]), most = std::max(0.0f, stance.turn[f]);
+    const float min = std::min(0.0f, stance.turn[f]), max = std::max(0.0f, stance.turn[f]);
     const float yaw = angle_about({0, 1, 0}, foot);
-    const Quat turn = rotation_y(std::clamp(yaw, least - kFreeTurn, most + kFreeTurn));
+    const Quat turn = rotation_y(std::clamp(yaw, min - kFreeTurn, max + kFreeTurn));
     Vec3 ahead = body.ways[toe];
     ahead.y = 0;
     const Vec3 side = cross({0, 1, 0}, normalized(ahead, {0, 0, 1}));

@@ -65,8 +65,8 @@ float arm_length(const HumanPositions& joints, int side) {
 
 // `way` from a shoulder to a wrist; if it is shorter than `least`, lengthened to that along the
 // unit vector `out`.
-Vec3 unfolded(Vec3 way, Vec3 out, float least) {
-  const float lacks = least * least - dot(way, way), along = dot(way, out);
+Vec3 unfolded(Vec3 way, Vec3 out, float min) {
+  const float lacks = min * min - dot(way, way), along = dot(way, out);
   return lacks > 0 ? way + out * (std::sqrt(along * along + lacks) - along) : way;
 }
 
@@ -232,10 +232,10 @@ void HandContacts::step(const HeadingBody& body, float firmness, std::array<floa
     }
     const Vec3 root = joints[index(kUpperArms[side])];
     const Vec3 input = carried(chest, wrist.input) - carried(chest, before(kUpperArms[side]));
-    const float least = std::min(
+    const float min = std::min(
         {kKeptFold * length(input), kFolded * arm_length(joints, side), length(wrist.now - root)});
     const Vec3 way = wrist.now + shift - root;
-    reach(side, root + unfolded(way, normalized(input), least),
+    reach(side, root + unfolded(way, normalized(input), min),
           carried(chest, before(kLowerArms[side])), time, elbows_[side], joints, change);
     const int hand = index(kHands[side]);
     const Quat forearm = turned(kLowerArms[side]);

@@ -110,15 +110,15 @@ Pushes pushes_of(const HeadingBody& body, const HumanPositions& joints, float st
       raise_pushes(body, joints, 1, r, l, -left, -left_before, stepping, pushes);
     }
   }
-  Pushes most;
+  Pushes max;
   for (size_t p = 0; p < kPoints[0].size(); ++p) {
-    most.knee = std::max(most.knee, pushes[0][p] / kPoints[0][p]);
+    max.knee = std::max(max.knee, pushes[0][p] / kPoints[0][p]);
   }
   for (size_t p = 0; p < kPoints[1].size(); ++p) {
     const float down = kPoints[1][p];
-    most.ankle = std::max(most.ankle, (pushes[1][p] - most.knee * (1 - down)) / down);
+    max.ankle = std::max(max.ankle, (pushes[1][p] - max.knee * (1 - down)) / down);
   }
-  return most;
+  return max;
 }
 
 // How a leg moves so that its knee goes out by `push.knee` and its ankle by `push.ankle` at least.

@@ -73,7 +73,7 @@ class EasedMove {
   // Approaches `wanted` with a time constant, slowly enough to stop there, and without a sudden
   // change of speed.
   static void follow(Vec3& at, Vec3& speed, Vec3 wanted, const StepTime& time) noexcept {
-    constexpr float kEaseSeconds = 0.05f, kMostAcceleration = 20;  // m/s2.
+    constexpr float kEaseSeconds = 0.05f, kMaxAcceleration = 20;  // m/s2.
     if (time.first) {
       at = wanted, speed = {};
       return;
@@ -82,10 +82,10 @@ class EasedMove {
     const Vec3 way = wanted - at;
     const float far = length(way);
     const float fastest = std::min(far * time.gain(kEaseSeconds) / time.output,
-                                   std::sqrt(2 * kMostAcceleration * far));
+                                   std::sqrt(2 * kMaxAcceleration * far));
     const Vec3 change = normalized(way) * fastest - speed;
-    const float most = kMostAcceleration * time.output, by = length(change);
-    speed += by > most ? change * (most / by) : change;
+    const float max = kMaxAcceleration * time.output, by = length(change);
+    speed += by > max ? change * (max / by) : change;
     at += speed * time.output;
   }
 

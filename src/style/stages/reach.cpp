@@ -31,9 +31,8 @@ void reach(int side, Vec3 target, Vec3 elbow, const StepTime& time, ArmSide& las
   const Vec3 carried = rotate(rotation_between(last.way, to), last.side);
   const Vec3 now = normalized(carried - to * dot(carried, to), style);
   const float turn = arc_tangent(dot(cross(now, wanted), to), dot(now, wanted));
-  const float most = kElbowRate * time.output;
-  last = {rotate(axis_angle(to, std::clamp(turn * time.gain(kElbowSeconds), -most, most)), now),
-          to};
+  const float max = kElbowRate * time.output;
+  last = {rotate(axis_angle(to, std::clamp(turn * time.gain(kElbowSeconds), -max, max)), now), to};
   aim_limb(arm, target, last.side, joints, change);
 }
 

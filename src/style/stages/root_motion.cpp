@@ -53,8 +53,8 @@ void RootMotion::step(const StyleDelta& delta, float gate, const Observer& obser
                       (speed * speed + kSlowSpeed * kSlowSpeed);
   const Vec3 way = observer.now().root.position - observer.last_root().position;
   drift_ += rotate(rotation_y(turn_), way) - way;
-  const float most = speed > 0 ? kMaxStretched : 0.0f;  // Backwards, or the way would not close.
-  drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMaxShortened, most);
+  const float max = speed > 0 ? kMaxStretched : 0.0f;  // Backwards, or the way would not close.
+  drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMaxShortened, max);
   climb_.step(observer.now().world, drift_ + sway_, time);
 }
 

@@ -24,17 +24,17 @@ ArmRotations arm_rotations(const BodyChange& change) noexcept {
 
 void SteadyArms::step(const ArmRotations& before, const StepTime& time,
                       BodyChange& change) noexcept {
-  const float most = kRate * time.output;
+  const float max = kRate * time.output;
   for (size_t i = 0; i < before.size(); ++i) {
     Quat &now = change.rotations[index(kArmJoints[i])], &last = corrections_[i];
     const Quat wanted = now == before[i] ? Quat{} : normalized(now * conjugate(before[i]));
     const Vec3 turn = wanted == last ? Vec3{} : log_rotation(wanted * conjugate(last));
     const float far = length(turn);
-    if (time.first || far <= most) {
+    if (time.first || far <= max) {
       last = wanted;
       continue;
     }
-    last = normalized(exp_rotation(turn * (most / far)) * last);
+    last = normalized(exp_rotation(turn * (max / far)) * last);
     now = normalized(last * before[i]);
   }
 }

@@ -246,9 +246,9 @@ TEST(BenchNetworks, the_mode_adaptive_network_equals_plain_loops) {
   const auto& gating = network.gating().layers;
   Numbers shares(x.begin(), x.begin() + 19);
   shares = through(gating[2], through(gating[1], through(gating[0], shares)), false);
-  const float most = *std::max_element(shares.begin(), shares.end());
+  const float max = *std::max_element(shares.begin(), shares.end());
   float total = 0;
-  for (float& share : shares) total += share = std::exp(share - most);
+  for (float& share : shares) total += share = std::exp(share - max);
   for (float& share : shares) share /= total;
   Numbers y(ModeNetwork::kOutputs);
   network.run(x, y);

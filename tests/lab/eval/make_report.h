@@ -79,6 +79,10 @@ inline SystemReport made_up_system(const std::string& name, double seed) {
   system.unseen[0].blind_clips = {{"ann", "ann", "old", "run", "proud", 2.5, 1, 1}};
   system.disturbances = {{"none", 2.25}, {"floor -5 cm", 2.75}};
   system.prediction = {{"walk", 100, {0.5, 1.25, 3.5}, {6.5, 12.5, 30.5}, {1.5, 4.5, 15.5}}};
+  system.persons = {{29, {4.125, 6.25}, 1.5, 12, 0.875, 0.75},
+                    {20, 3, {4.5, 6.5}, 0.95, 0.04},
+                    {176, 0.9375, 0.96875},
+                    {262, 0.92, 1.03, 0.0031, 0.024, 0.001, 2.5}};
   system.cc = 8.5;
   system.sc = 63;
   system.bone_length_error_cm = 0.002;

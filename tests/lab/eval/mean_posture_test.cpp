@@ -122,7 +122,7 @@ TEST(MeanPosture, is_a_system_of_the_styles_with_a_number_for_each_part_of_a_cha
   EXPECT_EQ((*system)->name(), "mean");
   EXPECT_EQ((*system)->styles(), (std::vector<std::string>{"old", "sad"}));
   EXPECT_EQ((*system)->facts().parameters, 2u * (StyleDelta::kSize + 1));
-  EXPECT_EQ((*system)->predicting_model(), nullptr);
+  EXPECT_EQ((*system)->model(), nullptr);
 }
 
 }  // namespace

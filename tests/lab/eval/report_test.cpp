@@ -74,6 +74,17 @@ TEST(ReportJson, every_number_stands_under_its_key) {
   EXPECT_EQ(system["foresight"]["walk"]["0.10"]["predicted_cm"], 1.25);
   EXPECT_EQ(system["foresight"]["walk"]["0.10"]["velocity_cm"], 4.5);
   EXPECT_EQ(system["foresight"]["walk"]["0.25"]["held_cm"], 30.5);
+  const Json& persons = system["persons"];
+  EXPECT_EQ(persons["real"]["people"], 29);
+  EXPECT_EQ(persons["real"]["median_cm"], 4.125);
+  EXPECT_EQ(persons["real"]["told"], 0.875);
+  EXPECT_EQ(persons["seeds"]["p90_cm"], 6.5);
+  EXPECT_EQ(persons["seeds"]["outside"], 0.04);
+  EXPECT_EQ(persons["styled"]["told"], 0.9375);
+  EXPECT_EQ(persons["styled"]["told_without"], 0.96875);
+  EXPECT_EQ(persons["others"]["jerk_p90"], 1.03);
+  EXPECT_EQ(persons["others"]["more_sliding"], 0.001);
+  EXPECT_TRUE(json["systems"][kRude]["persons"].is_null());
   EXPECT_EQ(system["cc"], 8.5);
   EXPECT_EQ(system["sc"], 63);
   EXPECT_EQ(system["bone_length_error_cm"], 0.002);

@@ -89,7 +89,7 @@ TEST(ReportText, all_its_parts_are_there) {
        {"Overall", "By content", "Style recognised by strength", "Content kept by strength",
         "split A", "split B", "Out-of-distribution motion", "Disturbed windows", "floor -5 cm",
         "Whole clips before the judge of their performer", "Motion of other performers",
-        "The same clips before the judges", "all styles", "Input prediction"}) {
+        "The same clips before the judges", "all styles", "Input prediction", "Persons: panache"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(occurrences(report_text(Report()), "Foreign"), 0u);

@@ -51,7 +51,7 @@ TEST(AnatomyLoss, every_joint_costs_by_how_far_it_is_beyond_its_range) {
   expect_cost({{right_upper_leg, kZ, 70}}, 70 - kHipRange.in);
   expect_cost({{right_upper_arm, kX, 110}}, 110 - kShoulderRange.back);
   expect_cost({{neck, kX, 90}}, 90 - kHeadRange.front);
-  expect_cost({{right_lower_leg, kX, 170}}, 170 - kKneeRange.most);
+  expect_cost({{right_lower_leg, kX, 170}}, 170 - kKneeRange.max);
   expect_cost({{left_lower_leg, kX, -60}}, 60 - kKneeRange.back);
   expect_cost({{left_upper_leg, kX, -100}, {left_lower_leg, kX, -70}}, 70 - kKneeRange.back);
   expect_cost({{left_lower_arm, kElbowAxis, -70}}, 70 - kElbowRange.back);

@@ -69,8 +69,8 @@ class LocalSource : public ChangeSource {
     float total = 0;
     for (Style& style : styles_) {
       if (seen.time.first) style.recent.clear();
-      const size_t most = std::max<size_t>(1, style.database->examples().size() / 5);
-      style.database->find(key, std::min(settings_.neighbours, most), neighbours_);
+      const size_t max = std::max<size_t>(1, style.database->examples().size() / 5);
+      style.database->find(key, std::min(settings_.neighbours, max), neighbours_);
       const std::optional<Output> recent = style.recent.before_next(seen.time.output);
       const LocalAnswer local =
           answer_locally(*style.database, neighbours_, key, recent ? &*recent : nullptr, settings_);

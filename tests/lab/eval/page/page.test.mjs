@@ -10,7 +10,7 @@ import playwright from 'playwright-core';
 
 const rude = 'a<b> & "c"\'s';  // A system's name.
 const all = ['judged', 'overall', 'content', 'style', 'performers', 'strength', 'mixes', 'unseen', 'foreign',
-  'disturbances', 'foresight', 'strips', 'contacts', 'literature', 'cost', 'definitions'];
+  'disturbances', 'foresight', 'persons', 'strips', 'contacts', 'literature', 'cost', 'definitions'];
 let browser;
 before(async () => {
   browser = await playwright.chromium.launch({
@@ -83,6 +83,8 @@ test('numbers stand in their own row and column', async () => {
   assert.deepEqual((await rows(page, 'mixes'))[0].slice(0, 4), ['old + proud', '0.810', '0.720', '0.930']);
   assert.deepEqual((await rows(page, 'foresight', 'panache'))[0].slice(0, 4),
     ['walk', '\u2022 0.50', '1.50', '6.50']);
+  assert.deepEqual(await rows(page, 'persons', 'panache'),
+    [['29 real people', '4.13', '6.25', '0.875'], ['20 seeds', '4.50', '6.50', '0.950']]);
   const worst = await rows(page, 'foreign', 'Most jerk against the input');
   assert.equal(worst.length, 8);
   assert.deepEqual(worst[0].slice(0, 2), ['box, style 10', '2.00']);

@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""names.py ROOT: fails if a source names something with a word that CONTRIBUTING.md (Terms) rules out.
+Comments and texts are prose and may have any word, and so may the names of tests."""
+import pathlib
+import re
+import sys
+
+FOLDERS = ('apps', 'include', 'lab', 'packaging', 'samples', 'src', 'tests')
+ENDS = {'.c', '.cpp', '.cs', '.h', '.js', '.mjs', '.ts'}
+RULED_OUT = {'most': 'max', 'least': 'min'}
+PROSE = re.compile(r'''//[^\n]*|/\*.*?\*/|R"\(.*?\)"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'|`(?:\\.|[^`\\])*`'''
+                   r'|\bTEST(?:_F|_P)?\([^)]*\)', re.DOTALL)
+NAME = re.compile(r'[A-Za-z_]\w*')
+PART = re.compile(r'[A-Z]?[a-z]+|[A-Z]+(?![a-z])')
+
+
+def names_in(text):
+    """Each name with its line."""
+    code = PROSE.sub(lambda prose: '\n' * prose.group().count('\n'), text)
+    for number, line in enumerate(code.split('\n'), 1):
+        for name in NAME.findall(line):
+            yield number, name
+
+
+def main(root):
+    found = 0
+    for folder in FOLDERS:
+        for path in sorted((root / folder).rglob('*')):
+            if path.suffix not in ENDS or 'node_modules' in path.parts:
+                continue
+            for number, name in names_in(path.read_text(errors='replace')):
+                for part in PART.findall(name):
+                    if part.lower() in RULED_OUT:
+                        found += 1
+                        print(f'{path.relative_to(root)}:{number}: {name}: expected {RULED_OUT[part.lower()]}')
+    return 1 if found else 0
+
+
+sys.exit(main(pathlib.Path(sys.argv[1])))
