@@ -25,17 +25,7 @@ constexpr double kEllipsoid = 12.592;  // The 95 % quantile of chi-squared with 
 constexpr int kMinFrames = 45;
 constexpr size_t kMinWalks = 3;  // Of a person who is to be told.
 
-HumanPositions mean_pose(const Take& take) {
-  HumanPositions mean{};
-  for (const HumanPositions& body : take.body) {
-    for (int j = 0; j < kHumanJoints; ++j) {
-      mean[j] += body[j] * (1 / static_cast<float>(take.body.size()));
-    }
-  }
-  return mean;
-}
-
-HumanPositions mean_pose_of(const std::vector<HumanPositions>& poses) {
+HumanPositions mean_pose(const std::vector<HumanPositions>& poses) {
   HumanPositions mean{};
   for (const HumanPositions& pose : poses) {
     for (int j = 0; j < kHumanJoints; ++j) {
@@ -126,9 +116,9 @@ Result<PersonsMeasure> PersonsMeasure::create(const std::vector<Take>& neutral,
   std::vector<std::string> labels, expected;
   for (const auto& [person, takes] : by_person) {
     std::vector<HumanPositions> poses;
-    for (const Take* take : takes) poses.push_back(mean_pose(*take));
+    for (const Take* take : takes) poses.push_back(mean_pose(take->body));
     add_distances(poses, own);
-    means.push_back(mean_pose_of(poses));
+    means.push_back(mean_pose(poses));
     if (takes.size() < kMinWalks) continue;
     for (size_t t = 0; t < takes.size(); ++t) {
       const bool last = t + 1 == takes.size();
@@ -199,7 +189,7 @@ Result<SeedPersons> PersonsMeasure::measure(const std::shared_ptr<const Model>& 
         const Take& take = takes[static_cast<size_t>(s * walks + other)];
         (other == w ? test : training).push_back(take);
         (other == w ? expected : labels).push_back(std::to_string(s));
-        if (other == w) poses.push_back(mean_pose(take));
+        if (other == w) poses.push_back(mean_pose(take.body));
         if (other != w) shifts.push_back(unchanged[static_cast<size_t>(other)]);
       }
     }
@@ -207,7 +197,7 @@ Result<SeedPersons> PersonsMeasure::measure(const std::shared_ptr<const Model>& 
     right +=
         told(training, labels, test, expected, shifts, unchanged[static_cast<size_t>(w)]) / walks;
     // From the mean person, who is the unchanged input.
-    const HumanPositions middle = mean_pose(walks_[w].take);
+    const HumanPositions middle = mean_pose(walks_[w].take.body);
     for (const HumanPositions& pose : poses) {
       double far = 0;
       for (int k = 0; k < kNumbers; ++k) {

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # include_order.sh ROOT: fails where a file of src or lab includes a folder that stands below its
 # own in the table of docs/design.md, where files include each other in a circle, or where a source
-# of src does not include the header of its name first; and where one of these, planted into a copy, is
-# not found.
+# does not include the header of its name first; and where one of these, planted into a copy, is not
+# found.
 set -euo pipefail
 root=$1
 
@@ -28,10 +28,13 @@ faults() {
   # tsort fails where there is a circle, and names the files of it.
   includes "$1" | tsort 2>&1 >/dev/null | sed 's/^tsort: //; s/^-: input contains a/in a/' || true
   # By this the build shows that the header includes what it needs.
-  (cd "$1/src" && find . -name '*.h' -printf '%P\n') | while read -r header; do
-    source=$1/src/${header%h}cpp
-    [[ ! -f $source || $(grep -m1 '^#include' "$source") == "#include \"$header\"" ]] ||
-      echo "${header%h}cpp does not include $header first"
+  local folder
+  for folder in src lab; do
+    (cd "$1/$folder" && find . -name '*.h' ! -path './cli/*' -printf '%P\n') | while read -r header; do
+      source=$1/$folder/${header%h}cpp
+      [[ ! -f $source || $(grep -m1 '^#include' "$source") == "#include \"$header\"" ]] ||
+        echo "${header%h}cpp does not include $header first"
+    done
   done
 }
 
@@ -58,3 +61,4 @@ plant src/rig/rig.h style/model.h 'rig/rig.h includes style/model.h, which stand
 plant src/learn/take.h train/trainer.h 'learn/take.h includes train/trainer.h, which stands below it'
 plant src/base/vec.h base/quat.h 'in a loop'
 plant src/rig/mapping.cpp rig/rig.h 'rig/mapping.cpp does not include rig/mapping.h first' 1i
+plant lab/eval/ood.cpp eval/shot.h 'eval/ood.cpp does not include eval/ood.h first' 1i

@@ -118,7 +118,8 @@ constexpr double kArmsOnNeckMeanDeg = 1.2, kArmsOnNeckMaxDeg = 12;
 constexpr double kArmsOnNeckMean = 0.085, kArmsOnNeckMax = 0.45;
 
 void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style, float strength,
-                                   double max_mean = kMeanDeg, double max = kMaxDeg) {
+                                   double usual_mean = kMeanDeg,
+                                   double usual_max = kMaxDeg) {
   const std::vector<HumanPositions> want = styled(motion, style, strength);
   const double change = difference(want, styled(motion, style, 0)).mean_deg;
   for (const Maker& maker : makers()) {
@@ -129,7 +130,7 @@ void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style,
                 style.c_str(), off.mean_deg, off.max_deg,
                 std::string(human_joint_name(off.joint)).c_str(), plain.mean_deg, plain.max_deg,
                 std::string(human_joint_name(plain.joint)).c_str());
-    double mean = max_mean, max = max;
+    double mean = usual_mean, max = usual_max;
     if (maker.name == std::string(kArmsOnNeck)) {
       mean = std::max(kArmsOnNeckMeanDeg, plain.mean_deg + kArmsOnNeckMean * change);
       max = std::max(kArmsOnNeckMaxDeg, plain.max_deg + kArmsOnNeckMax * change);
