@@ -221,7 +221,7 @@ class Balance {
   // The mean distance of the point from the supporting foot, if the clip were played `times` as
   // fast; nothing if too few frames stand on one foot.
   std::optional<double> miss(double times) const {
-    constexpr int kFewest = 6;
+    constexpr int kFewest = 3;
     double sum = 0;
     int count = 0;
     for (const Steps::Step& step : steps_.steps) {

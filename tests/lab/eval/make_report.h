@@ -114,6 +114,7 @@ inline Report made_up_report() {
                        {"bob", "bob", "proud", "walk", "proud", 1.25, 1, 1}};
   report.real_clips_across = {{"bob", "ann", "proud", "walk", "old"}};
   report.systems = {made_up_system("panache", 0.8), made_up_system(kRude, 0.7)};
+  report.systems[1].persons.reset();
   report.strips = {{"walk, old", {{"input", {standing(0), standing(1)}, ""}}, 0.25}};
   report.contacts = {{"walk, old", {{"input", 10, {{true, false}, {true, true}, {false, true}}}}}};
   report.seconds = 427;
