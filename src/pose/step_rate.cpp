@@ -19,8 +19,8 @@ namespace {
 // has next to none, so the body would hang in the air beside its foot. Both only show where legs
 // step: a person who really moves slowly keeps the centre over the foot.
 //
-// Measured on takes of walks, runs, dances and sports (bandai, xia, formats, cmu, cmu-styles,
-// cmu-more): at their own rate @@ are doubted, all of cmu-more and five of them by one performer.
+// Measured on 4,611 takes of all kinds (bandai, xia, formats, cmu, cmu-styles, cmu-more): at their
+// own rate 13 are doubted, all of cmu-more and five of them by one performer.
 // Of 89 walks (of bandai, many with four steps only), 98 % are noticed at 4 times their rate, 71 %
 // at 2.5 times, 85 % at a quarter and 80 % at 0.4 of it.
 

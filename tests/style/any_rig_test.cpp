@@ -118,8 +118,7 @@ constexpr double kArmsOnNeckMeanDeg = 1.2, kArmsOnNeckMaxDeg = 12;
 constexpr double kArmsOnNeckMean = 0.085, kArmsOnNeckMax = 0.45;
 
 void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style, float strength,
-                                   double usual_mean = kMeanDeg,
-                                   double usual_max = kMaxDeg) {
+                                   double usual_mean = kMeanDeg, double usual_max = kMaxDeg) {
   const std::vector<HumanPositions> want = styled(motion, style, strength);
   const double change = difference(want, styled(motion, style, 0)).mean_deg;
   for (const Maker& maker : makers()) {
