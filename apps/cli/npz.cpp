@@ -18,7 +18,7 @@ size_t max_unpacked(size_t packed) {
 }
 constexpr zip_int64_t kMaxMembers = 1000;
 
-// The bytes of a member, or slightly more than `most` of them; the size in its header is not
+// The bytes of a member, or slightly more than `max` of them; the size in its header is not
 // trusted.
 Result<std::string> unpack(zip_t* zip, zip_uint64_t which, size_t max, const std::string& place) {
   zip_file_t* file = zip_fopen_index(zip, which, 0);

@@ -23,7 +23,7 @@ inline Vec3 from_line(Vec3 point, Vec3 a, Vec3 b) noexcept {
   return point - (a + along * t);
 }
 
-// `v` with its length beyond `free` compressed so that it stays below `most`.
+// `v` with its length beyond `free` compressed so that it stays below `max`.
 inline Vec3 softly_bounded(Vec3 v, float free, float max) noexcept {
   const float far = length(v), over = far - free, room = max - free;
   if (!(over > 0)) return v;

@@ -114,7 +114,7 @@ class FigureFinder {
     }
     return true;
   }
-  // At most `most` joints of the figure, evenly spread, without its root.
+  // At most `max` joints of the figure, evenly spread, without its root.
   std::vector<int> some_joints(int root, size_t max) const {
     std::vector<int> all;
     for (size_t j = 0; j < joints_.size(); ++j) {

@@ -21,7 +21,7 @@ constexpr float kMaxDrop = 0.1f;
 float left_at(float swing) { return 1 - smooth_step(swing / 0.92f); }
 
 // A knee near full stretch straightens abruptly. If the gait does not reach as far as `wanted`, the
-// leg approaches `most` only gradually.
+// leg approaches `max` only gradually.
 float soft_reach(float wanted, float gait, float max) {
   if (wanted <= gait || gait >= max) return std::min(wanted, std::max(gait, max));
   return gait + (max - gait) * (1 - std::exp(-(wanted - gait) / (max - gait)));

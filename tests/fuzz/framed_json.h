@@ -11,7 +11,7 @@ extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max);
 
 namespace panache::fuzz {
 
-// Changes `text` as libFuzzer would, to at most `most` bytes.
+// Changes `text` as libFuzzer would, to at most `max` bytes.
 inline void mutate(std::string& text, size_t max) {
   const size_t size = text.size();
   text.resize(std::max(size, max));

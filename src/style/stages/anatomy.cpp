@@ -17,7 +17,7 @@ namespace {
 using enum HumanJoint;
 
 // A change is reduced from this much before a limit on; if the input is near or beyond the limit,
-// over at least kLeast beyond the input.
+// over at least kMin beyond the input.
 constexpr float kSoft = in_radians(10), kMin = in_radians(2);
 // Time constants of rising and falling shares. With half of the first, jumps of legs and hands by
 // more than 6 cm in a frame were three times as frequent; with the first for both, those of knees.

@@ -63,7 +63,7 @@ float arm_length(const HumanPositions& joints, int side) {
          length(joints[index(kHands[side])] - elbow);
 }
 
-// `way` from a shoulder to a wrist; if it is shorter than `least`, lengthened to that along the
+// `way` from a shoulder to a wrist; if it is shorter than `min`, lengthened to that along the
 // unit vector `out`.
 Vec3 unfolded(Vec3 way, Vec3 out, float min) {
   const float lacks = min * min - dot(way, way), along = dot(way, out);
