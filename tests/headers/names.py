@@ -9,6 +9,7 @@ FOLDERS = ('apps', 'include', 'lab', 'packaging', 'samples', 'src', 'tests')
 ENDS = {'.c', '.cpp', '.cs', '.h', '.js', '.mjs', '.ts'}
 RULED_OUT = {'most': 'max', 'least': 'min'}
 PROSE = re.compile(r'''//[^\n]*|/\*.*?\*/|R"\(.*?\)"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'|`(?:\\.|[^`\\])*`'''
+                   r'|(?<=[(, ])/(?![/*\s=])(?:\\.|[^/\\\n])+/(?=[\w).,;])'  # A regular expression.
                    r'|\bTEST(?:_F|_P)?\([^)]*\)', re.DOTALL)
 NAME = re.compile(r'[A-Za-z_]\w*')
 PART = re.compile(r'[A-Z]?[a-z]+|[A-Z]+(?![a-z])')
