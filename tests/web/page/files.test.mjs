@@ -375,7 +375,7 @@ test('a huge file is refused, or read, and the page lives on', async () => {
   truncateSync(at('huge.bvh'), 300 << 20);
   await choose('huge.bvh');
   await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('huge'));
-  assert.match(await alertText(), /expected at max 256 MB, found 300 MB/);
+  assert.match(await alertText(), /expected at most 256 MB, found 300 MB/);
   // Ten minutes of motion.
   panache('walker', '-o', 'long.bvh', '--seconds', '600', '--fps', '30');
   await choose('long.bvh');
