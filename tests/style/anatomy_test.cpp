@@ -161,7 +161,7 @@ TEST_F(AnatomyTest, a_held_leg_goes_back_as_far_as_its_thigh_needs) {
   }
 }
 
-TEST_F(AnatomyTest, a_leg_at_its_limit_is_held_again_slowly) {
+TEST_F(AnatomyTest, a_leg_at_its_limit_is_released_within_a_few_frames_and_held_again_slowly) {
   const BodyChange free = {};
   BodyChange change =
       turned(left_upper_leg, left_lower_leg, axis_angle(Vec3{0, 0, 1}, -70 * kDegree));
@@ -173,6 +173,13 @@ TEST_F(AnatomyTest, a_leg_at_its_limit_is_held_again_slowly) {
   keep_held_legs(body_, free, {0.03, 0.03, false}, released, change);
   EXPECT_GT(released[0], 0.85f * first);
   EXPECT_LT(released[0], first);
+
+  released = {};
+  for (const float until : {0.25f, 0.5f}) {
+    change = turned(left_upper_leg, left_lower_leg, axis_angle(Vec3{0, 0, 1}, -170 * kDegree));
+    keep_held_legs(body_, free, {0.03, 0.03, false}, released, change);
+    EXPECT_NEAR(released[0], until, 0.04f);
+  }
 }
 
 TEST_F(AnatomyTest, a_limit_comes_and_goes_gradually) {

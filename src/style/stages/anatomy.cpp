@@ -71,6 +71,9 @@ Vec3 seen_in(const Frame& frame, Vec3 v) {
 
 constexpr std::array<float, 2> kOutward = {1, -1};  // Along x, of left and right.
 constexpr int kHalvings = 6;  // Of the share of a held leg that is taken back.
+// A held leg goes back all the way in no less than this: at once, a foot that rests beside its hip
+// jumped by 7 cm, and a quarter of all jumps were such. With twice as much nothing jumps less.
+constexpr float kReleaseSeconds = 0.12f;
 
 // A reference joint for limbs, and its frame in the input, heading frame.
 struct Base {
@@ -268,12 +271,14 @@ void keep_held_legs(const HeadingBody& body, const BodyChange& free, const StepT
     if (!(held > 0)) continue;
     const float allowed = std::max(beyond_at(1), 0.0f);
     if (held > allowed) {
+      const float max = time.first ? 1.0f : share + time.output / kReleaseSeconds;
       float less = share;
       share = 1;
       for (int i = 0; i < kHalvings; ++i) {
         const float middle = (share + less) / 2;
         (beyond_at(middle) > allowed ? less : share) = middle;
       }
+      share = std::min(share, max);
     }
     beyond_at(share);
   }

@@ -35,9 +35,9 @@ class Anatomy {
 };
 
 // Turns the legs of `change`, whose feet are held, back towards `free`, the same change before
-// that, as far as thighs and knees need it to stay within their range: at once, so that no step
-// leaves them beyond it. `released`: how far each leg was turned back at the last step, 0 to 1; it
-// falls slowly, so that a leg at its limit does not flutter. Left, right.
+// that, as far as thighs and knees need it to stay within their range, and within a few frames.
+// `released`: how far each leg was turned back at the last step, 0 to 1; it falls slowly, so that a
+// leg at its limit does not flutter. Left, right.
 void keep_held_legs(const HeadingBody& body, const BodyChange& free, const StepTime& time,
                     std::array<float, 2>& released, BodyChange& change) noexcept;
 
