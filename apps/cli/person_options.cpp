@@ -42,9 +42,8 @@ void add_person_options(CLI::App& verb, PersonFlags& flags) {
   add_option(
       verb, "--person SEED", flags.person,
       "Move as another person, in addition to the styles: a\nnumber or a word, each is another "
-      "one. random: another\none for each file or sender. Or the numbers that panache "
-      "learn\n--person "
-      "prints");
+      "one. random: another\none for each file or sender. Or the numbers that\npanache learn "
+      "--person prints");
   add_option(verb, "--seed NUMBER", flags.seed,
              "Other random persons; equal seeds give equal persons.\nDefault: 0");
   add_option(verb, "--variety AMOUNT", flags.variety,

@@ -131,12 +131,13 @@ void VmcRelay::apply_side(const VmcMessage& message) {
 }
 
 VmcCharacter VmcRelay::make_character() {
+  VmcStyling how = how_;
   if (person_) {
     const std::string sender = std::to_string(met_ + 1);
-    how_.options.stylizer.person = person_->numbers_for(sender, *how_.model);
+    how.options.stylizer.person = person_->numbers_for(sender, *how.model);
     note_ = "sender " + sender + " moves as " + person_->describe(sender);
   }
-  return VmcCharacter(how_);
+  return VmcCharacter(std::move(how));
 }
 
 VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {

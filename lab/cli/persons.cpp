@@ -1,7 +1,5 @@
 // panache-lab persons: measures the persons of a model beside real people.
 
-#include <algorithm>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>

@@ -11,8 +11,8 @@
 #include "base/parallel.h"
 #include "eval/discriminant.h"
 #include "eval/report_numbers.h"
-#include "learn/learn_person.h"
 #include "eval/report_ood.h"
+#include "learn/learn_person.h"
 #include "style/restyle.h"
 #include "train/persons.h"
 
@@ -297,9 +297,9 @@ Result<StyledPersons> measure_styled_persons(const std::vector<TestInput>& neutr
   struct Job {
     size_t input;
     std::string style;
-    int index, seed;
+    int index, seed;  // -1: without a person.
   };
-  std::vector<Job> jobs;  // Of each style, the one without a person comes first.
+  std::vector<Job> jobs;
   for (size_t i = 0; i < neutral.size(); ++i) {
     for (const std::string& style : styles[i]) {
       const Result<int> index = model->find_style(style);

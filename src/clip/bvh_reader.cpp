@@ -247,7 +247,7 @@ class BvhReader {
     const uint64_t poses = std::max<uint64_t>(1'000'000, 4 * document_.text.size());
     return std::min<uint64_t>(poses / joints().size(), std::numeric_limits<int>::max());
   }
-  std::string too_many(uint64_t frames) const {
+  std::string frame_limit(uint64_t frames) const {
     return "at most " + plural(frames, "frame") + " for a skeleton of " +
            plural(joints().size(), "joint") + " in a file of " +
            plural(document_.text.size(), "byte");
@@ -269,7 +269,7 @@ class BvhReader {
     for (;; ++frame) {
       cursor_.skip_space();
       if (cursor_.at_end()) break;
-      if (frame == max_frames()) return cursor_.error(too_many(frame));
+      if (frame == max_frames()) return cursor_.error(frame_limit(frame));
       if (frame == static_cast<uint64_t>(clip_.frames)) {
         clip_.resize(static_cast<int>(std::min(max_frames(), frame + frame / 2 + 16)));
       }

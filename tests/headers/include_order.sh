@@ -28,6 +28,7 @@ faults() {
   # tsort fails where there is a circle, and names the files of it.
   includes "$1" | tsort 2>&1 >/dev/null | sed 's/^tsort: //; s/^-: input contains a/in a/' || true
   # By this the build shows that the header includes what it needs.
+  # In lab/cli headers are included by their name alone.
   local folder
   for folder in src lab; do
     (cd "$1/$folder" && find . -name '*.h' ! -path './cli/*' -printf '%P\n') | while read -r header; do

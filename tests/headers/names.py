@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""names.py ROOT: fails if a source names something with a word that CONTRIBUTING.md (Terms) rules out.
+"""names.py ROOT: fails if a source names something with a word of RULED_OUT (CONTRIBUTING.md, Terms).
 Comments and texts are prose and may have any word, and so may the names of tests."""
 import pathlib
 import re

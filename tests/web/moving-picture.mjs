@@ -1,7 +1,7 @@
 // node moving-picture.mjs FOLDER LABEL=FILE.glb...: draws walking characters side by side, each on a
 // treadmill with its name below, as FOLDER/000.png and so on, 20 frames a second. Each shows whole
-// cycles of its own walk, so the frames are a loop; tempos change by less than a twentieth for that, by a tenth for twelve characters.
-// Prints the number of frames. Called by scripts/moving-picture.
+// cycles of its own walk, so the frames are a loop; tempos change by less than a twentieth for that,
+// by a tenth for twelve characters. Prints the number of frames. Called by scripts/moving-picture.
 
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';

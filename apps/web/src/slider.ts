@@ -24,7 +24,7 @@ export class Slider {
 
   constructor(private options: SliderOptions) {
     const { id, title, hint, min, max } = options;
-    const bounds = { min: min, max: max, step: 0.01 };
+    const bounds = { min, max, step: 0.01 };
     this.range = element('input', { type: 'range', id, ...bounds, title: hint });
     this.#field = element('input', {
       type: 'number', ...bounds, 'aria-label': `${title}, exact`, inputmode: 'decimal',

@@ -72,7 +72,7 @@ Vec3 seen_in(const Frame& frame, Vec3 v) {
 constexpr std::array<float, 2> kOutward = {1, -1};  // Along x, of left and right.
 constexpr int kHalvings = 6;  // Of the share of a held leg that is taken back.
 // A held leg goes back all the way in no less than this: at once, a foot that rests beside its hip
-// jumped by 7 cm, and a quarter of all jumps were such. With twice as much nothing jumps less.
+// jumped by 7 cm, and a quarter of all jumps were such. With twice as much hardly less jumps.
 constexpr float kReleaseSeconds = 0.12f;
 
 // A reference joint for limbs, and its frame in the input, heading frame.
