@@ -11,8 +11,8 @@
 #include "net/safetensors.h"
 #include "pose/contacts.h"
 #include "pose/features.h"
-#include "style/model.h"
-#include "style/names.h"
+#include "style/model/model.h"
+#include "style/model/names.h"
 
 namespace panache::test {
 

@@ -2,7 +2,7 @@
 
 #include "formats.h"
 #include "option_table.h"
-#include "style/shape.h"
+#include "style/stages/shape.h"
 
 namespace panache::cli {
 namespace {

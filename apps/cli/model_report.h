@@ -7,7 +7,7 @@
 
 #include "messages.h"
 #include "net/safetensors.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache::cli {
 

@@ -4,7 +4,7 @@
 
 #include "messages.h"
 #include "model_path.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "clip/text_cursor.h"
-#include "style/person.h"
+#include "style/model/person.h"
 #include "strengths.h"
 #include "usage_error.h"
 

@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include "messages.h"
-#include "style/model.h"
-#include "style/person.h"
+#include "style/model/model.h"
+#include "style/model/person.h"
 
 namespace panache::cli {
 

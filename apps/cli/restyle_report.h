@@ -5,7 +5,7 @@
 #include <string>
 
 #include "messages.h"
-#include "style/restyle_facts.h"
+#include "style/play/restyle_facts.h"
 
 namespace panache::cli {
 

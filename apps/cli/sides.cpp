@@ -5,7 +5,7 @@
 
 #include "clip/text_cursor.h"
 #include "messages.h"
-#include "style/side.h"
+#include "style/model/side.h"
 
 namespace panache::cli {
 namespace {

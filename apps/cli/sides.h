@@ -8,7 +8,7 @@
 
 #include "base/result.h"
 #include "strengths.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache::cli {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "style/model.h"
+#include "style/model/model.h"
 #include "style/restyle.h"
 
 namespace panache::cli {

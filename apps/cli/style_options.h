@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "messages.h"
-#include "style/removal.h"
+#include "style/play/removal.h"
 #include "style/stylizer.h"
 
 namespace panache::cli {

@@ -14,7 +14,7 @@
 #include "model_path.h"
 #include "model_report.h"
 #include "page_server.h"
-#include "style/model.h"
+#include "style/model/model.h"
 #include "verbs.h"
 
 namespace panache::cli {

@@ -9,7 +9,7 @@
 
 #include "bench/measure.h"
 #include "clip/clip.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache::bench {
 

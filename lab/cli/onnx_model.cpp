@@ -8,7 +8,7 @@
 #include "net/quantize.h"
 #include "onnx_graph.h"
 #include "pose/features.h"
-#include "style/model.h"
+#include "style/model/model.h"
 #include "style/stages/strengths.h"
 
 namespace panache::cli {

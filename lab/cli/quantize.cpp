@@ -9,7 +9,7 @@
 #include "messages.h"
 #include "net/quantize.h"
 #include "outputs.h"
-#include "style/model.h"
+#include "style/model/model.h"
 #include "lab_verbs.h"
 
 namespace panache::cli {

@@ -11,7 +11,7 @@
 #include "manifests.h"
 #include "messages.h"
 #include "stop_signal.h"
-#include "style/model.h"
+#include "style/model/model.h"
 #include "train/checkpoint.h"
 #include "train/trainer.h"
 #include "usage_error.h"

@@ -11,7 +11,7 @@
 #include "eval/system.h"
 #include "learn/pose_error.h"
 #include "learn/take.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache {
 

@@ -9,7 +9,7 @@
 #include "learn/samples.h"
 #include "learn/style_file.h"
 #include "rig/canonical_skeleton.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

@@ -12,7 +12,7 @@
 #include "eval/report_persons.h"
 #include "eval/test_input.h"
 #include "learn/neutral_bank.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache {
 

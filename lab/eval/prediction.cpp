@@ -1,7 +1,7 @@
 #include "eval/prediction.h"
 
 #include "base/quat.h"
-#include "style/pose_predictor.h"
+#include "style/play/pose_predictor.h"
 
 namespace panache {
 namespace {

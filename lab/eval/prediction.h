@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "learn/take.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache {
 

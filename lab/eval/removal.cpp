@@ -10,7 +10,7 @@
 #include "eval/report_numbers.h"
 #include "eval/systems/styled_clip.h"
 #include "learn/recognise.h"
-#include "style/removal.h"
+#include "style/play/removal.h"
 
 namespace panache {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/result.h"
 #include "eval/metrics.h"
 #include "eval/test_input.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache {
 

@@ -12,7 +12,7 @@
 #include "eval/metrics.h"
 #include "eval/test_input.h"
 #include "learn/take.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "style/networks.h"
-#include "style/names.h"
+#include "style/model/names.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/progress.h"
-#include "style/shape.h"
+#include "style/stages/shape.h"
 #include "train/styled_bodies.h"
 
 namespace panache {

@@ -13,8 +13,8 @@
 #include "learn/learn_person.h"
 #include "net/quantize.h"
 #include "recipes/recipes.h"
-#include "style/networks.h"
-#include "style/pose_change.h"
+#include "style/networks/networks.h"
+#include "style/stages/pose_change.h"
 #include "train/network.h"
 
 namespace panache {

@@ -1,5 +1,5 @@
 #pragma once
-// Fits the space of persons of a model (style/person.h) to the neutral motion of many people.
+// Fits the space of persons of a model (style/model/person.h) to the neutral motion of many people.
 
 #include <map>
 #include <string>
@@ -9,7 +9,7 @@
 #include "learn/neutral_bank.h"
 #include "learn/take.h"
 #include "net/safetensors.h"
-#include "style/person.h"
+#include "style/model/person.h"
 
 namespace panache {
 

@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "learn/recognise.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 #include "train/network.h"
 
 namespace panache {

@@ -8,8 +8,8 @@
 
 #include "base/result.h"
 #include "learn/samples.h"
-#include "style/model.h"
-#include "style/names.h"
+#include "style/model/model.h"
+#include "style/model/names.h"
 #include "train/training_data.h"
 
 namespace panache {

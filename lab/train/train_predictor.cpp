@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "style/predictor_network.h"
+#include "style/model/predictor_network.h"
 #include "train/network.h"
 
 namespace panache {

@@ -12,7 +12,7 @@
 #include "learn/samples.h"
 #include "net/safetensors.h"
 #include "recipes/recipes.h"
-#include "style/model.h"
+#include "style/model/model.h"
 #include "train/coverage.h"
 #include "train/training_data.h"
 

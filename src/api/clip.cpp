@@ -8,7 +8,7 @@
 #include "api/options.h"
 #include "api/poses.h"
 #include "learn/recognise.h"
-#include "style/removal.h"
+#include "style/play/removal.h"
 
 using namespace panache;
 using namespace panache::api;

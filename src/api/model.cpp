@@ -1,7 +1,7 @@
 #include "api/errors.h"
 #include "api/objects.h"
 #include "api/options.h"
-#include "style/side.h"
+#include "style/model/side.h"
 
 using namespace panache;
 using namespace panache::api;

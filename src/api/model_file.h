@@ -6,7 +6,7 @@
 
 #include "base/result.h"
 #include "net/safetensors.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache::api {
 

@@ -10,7 +10,7 @@
 #include "panache/panache.h"
 #include "rig/rig.h"
 #include "style/live_stylizer.h"
-#include "style/model.h"
+#include "style/model/model.h"
 #include "style/restyle.h"
 
 struct panache_bytes {

@@ -8,8 +8,8 @@
 #include "api/sized_struct.h"
 #include "panache/panache.h"
 #include "rig/rig.h"
-#include "style/model.h"
-#include "style/shape.h"
+#include "style/model/model.h"
+#include "style/stages/shape.h"
 
 namespace panache::api {
 

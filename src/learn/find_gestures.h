@@ -6,7 +6,7 @@
 
 #include "learn/pairing.h"
 #include "learn/take.h"
-#include "style/gesture.h"
+#include "style/model/gesture.h"
 
 namespace panache {
 

@@ -6,7 +6,7 @@
 
 #include "learn/disturbance.h"
 #include "learn/ridge.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

@@ -8,7 +8,7 @@
 #include "learn/ridge.h"
 #include "learn/samples.h"
 #include "rig/canonical_skeleton.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

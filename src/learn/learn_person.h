@@ -1,5 +1,5 @@
 #pragma once
-// The numbers of a person (style/person.h) from neutral motion of that person.
+// The numbers of a person (style/model/person.h) from neutral motion of that person.
 
 #include <memory>
 #include <span>
@@ -9,8 +9,8 @@
 #include "learn/neutral_bank.h"
 #include "learn/pairing.h"
 #include "learn/take.h"
-#include "style/model.h"
-#include "style/person.h"
+#include "style/model/model.h"
+#include "style/model/person.h"
 
 namespace panache {
 

@@ -15,7 +15,7 @@
 #include "learn/style_file.h"
 #include "learn/thumbnail.h"
 #include "recipes/recipes.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/csv.h"
 #include "learn/style_file.h"
-#include "style/side.h"
+#include "style/model/side.h"
 
 namespace panache {
 

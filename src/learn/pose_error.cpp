@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "learn/samples.h"
-#include "style/pose_change.h"
+#include "style/stages/pose_change.h"
 
 namespace panache {
 namespace {

@@ -8,7 +8,7 @@
 #include "learn/samples.h"
 #include "net/aligned_vector.h"
 #include "pose/mirror.h"
-#include "style/names.h"
+#include "style/model/names.h"
 
 namespace panache {
 namespace {

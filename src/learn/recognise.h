@@ -8,7 +8,7 @@
 #include "clip/clip.h"
 #include "learn/take.h"
 #include "rig/rig.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "base/lower_case.h"
+#include "base/state_bytes.h"
 #include "base/xml.h"
 #include "clip/decimal.h"
 #include "clip/text_cursor.h"
 #include "recipes/recipes.h"
-#include "style/side.h"
-#include "style/state_bytes.h"
+#include "style/model/side.h"
 
 namespace panache {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "style/state_bytes.h"
+#include "base/state_bytes.h"
 
 namespace panache {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "style/playback.h"
-#include "style/removal_pass.h"
+#include "style/play/playback.h"
+#include "style/play/removal_pass.h"
 #include "style/stylizer.h"
 
 namespace panache {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "pose/loop.h"
-#include "style/network_source.h"
-#include "style/play_clip.h"
+#include "style/networks/network_source.h"
+#include "style/play/play_clip.h"
 
 namespace panache {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/prefetch.h"
 #include "pose/observer.h"
-#include "style/change_source.h"
+#include "style/networks/change_source.h"
 #include "style/stages/flight.h"
 #include "style/stages/window.h"
 #include "style/stylizer_options.h"

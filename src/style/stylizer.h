@@ -6,7 +6,7 @@
 
 #include "base/prefetch.h"
 #include "base/result.h"
-#include "style/network_source.h"
+#include "style/networks/network_source.h"
 #include "style/stepper.h"
 #include "style/stylizer_options.h"
 

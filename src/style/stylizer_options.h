@@ -6,8 +6,8 @@
 
 #include "base/result.h"
 #include "pose/observer.h"
-#include "style/person.h"
-#include "style/shape.h"
+#include "style/model/person.h"
+#include "style/stages/shape.h"
 
 namespace panache {
 

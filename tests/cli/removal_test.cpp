@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
-#include "style/names.h"
+#include "style/model/names.h"
 
 namespace panache::test {
 namespace {

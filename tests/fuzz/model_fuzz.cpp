@@ -3,7 +3,7 @@
 #include "framed_json.h"
 #include "learn/style_file.h"
 #include "net/quantize.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 #include "use_motion.h"
 
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max,

@@ -58,7 +58,7 @@ plant() {
     exit 1
   fi
 }
-plant src/rig/rig.h style/model.h 'rig/rig.h includes style/model.h, which stands below it'
+plant src/rig/rig.h style/model/model.h 'rig/rig.h includes style/model/model.h, which stands below it'
 plant src/learn/take.h train/trainer.h 'learn/take.h includes train/trainer.h, which stands below it'
 plant src/base/vec.h base/quat.h 'in a loop'
 plant src/rig/mapping.cpp rig/rig.h 'rig/mapping.cpp does not include rig/mapping.h first' 1i

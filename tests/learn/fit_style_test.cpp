@@ -6,7 +6,7 @@
 
 #include "learn/make_takes.h"
 #include "make_model.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "make_clip.h"
-#include "style/names.h"
-#include "style/removal.h"
+#include "style/model/names.h"
+#include "style/play/removal.h"
 #include "walker/walker.h"
 
 namespace panache {

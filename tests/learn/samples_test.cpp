@@ -6,7 +6,7 @@
 #include "learn/disturbance.h"
 #include "make_takes.h"
 #include "pose/mirror.h"
-#include "style/pose_change.h"
+#include "style/stages/pose_change.h"
 
 namespace panache {
 namespace {

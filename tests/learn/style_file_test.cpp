@@ -11,7 +11,7 @@
 #include "base/file.h"
 #include "make_learnt.h"
 #include "net/quantize.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

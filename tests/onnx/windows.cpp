@@ -13,7 +13,7 @@
 
 #include "base/random.h"
 #include "learn/samples.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 #include "walker/walker.h"
 
 using namespace panache;

@@ -1,4 +1,4 @@
-#include "style/gesture.h"
+#include "style/model/gesture.h"
 
 #include <cmath>
 #include <cstring>

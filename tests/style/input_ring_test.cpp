@@ -1,4 +1,4 @@
-#include "style/input_ring.h"
+#include "style/play/input_ring.h"
 
 #include <cmath>
 

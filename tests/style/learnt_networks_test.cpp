@@ -9,7 +9,7 @@
 #include "make_learnt.h"
 #include "net/quantize.h"
 #include "read_model.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

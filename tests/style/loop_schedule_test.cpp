@@ -1,4 +1,4 @@
-#include "style/loop_schedule.h"
+#include "style/play/loop_schedule.h"
 
 #include <algorithm>
 #include <cmath>

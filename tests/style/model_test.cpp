@@ -1,4 +1,4 @@
-#include "style/model.h"
+#include "style/model/model.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include "make_model.h"
 #include "net/quantize.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "make_model.h"
 #include "net/quantize.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

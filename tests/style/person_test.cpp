@@ -1,6 +1,6 @@
 // Persons: a few numbers that change all that a character does, in addition to its styles.
 
-#include "style/person.h"
+#include "style/model/person.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "style/play_clip.h"
+#include "style/play/play_clip.h"
 
 #include <cmath>
 

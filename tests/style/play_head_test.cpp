@@ -1,4 +1,4 @@
-#include "style/play_head.h"
+#include "style/play/play_head.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "style/pose_predictor.h"
+#include "style/play/pose_predictor.h"
 
 #include <cmath>
 

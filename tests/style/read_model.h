@@ -11,7 +11,7 @@
 #include "base/random.h"
 #include "net/safetensors.h"
 #include "pose/features.h"
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache {
 

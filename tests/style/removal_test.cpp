@@ -1,4 +1,4 @@
-#include "style/removal.h"
+#include "style/play/removal.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include "make_clip.h"
 #include "make_model.h"
 #include "style/live_stylizer.h"
-#include "style/names.h"
+#include "style/model/names.h"
 
 namespace panache {
 namespace {

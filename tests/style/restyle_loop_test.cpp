@@ -13,8 +13,8 @@
 #include "make_loop.h"
 #include "pose/observer.h"
 #include "rig/put_on.h"
+#include "style/play/restyle_facts.h"
 #include "style/restyle.h"
-#include "style/restyle_facts.h"
 
 namespace panache {
 namespace {

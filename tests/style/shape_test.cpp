@@ -1,4 +1,4 @@
-#include "style/shape.h"
+#include "style/stages/shape.h"
 
 #include <cmath>
 #include <cstring>

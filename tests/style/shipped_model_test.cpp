@@ -9,8 +9,8 @@
 #include "clip/motion_file.h"
 #include "make_clip.h"
 #include "net/quantize.h"
+#include "style/play/restyle_facts.h"
 #include "style/restyle.h"
-#include "style/restyle_facts.h"
 #include "walker/walker.h"
 
 namespace panache {

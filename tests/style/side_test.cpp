@@ -1,7 +1,7 @@
 // Sides of styles: a mirrored style is the mirror image of what the style makes of the mirrored
 // input.
 
-#include "style/side.h"
+#include "style/model/side.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,8 @@
 #include "make_learnt.h"
 #include "make_model.h"
 #include "pose/mirror.h"
+#include "style/networks/networks.h"
 #include "style/restyle.h"
-#include "style/networks.h"
 
 namespace panache {
 namespace {

@@ -9,7 +9,7 @@
 #include "make_clip.h"
 #include "make_jump.h"
 #include "make_model.h"
-#include "style/names.h"
+#include "style/model/names.h"
 
 namespace panache::web {
 namespace {

@@ -20,8 +20,8 @@
 #include "retarget/find_body.h"
 #include "retarget/retarget.h"
 #include "rig/body_motions.h"
-#include "style/removal.h"
-#include "style/side.h"
+#include "style/model/side.h"
+#include "style/play/removal.h"
 
 using namespace panache;
 using namespace panache::web;

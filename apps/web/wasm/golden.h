@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "style/model.h"
+#include "style/model/model.h"
 
 namespace panache::web {
 

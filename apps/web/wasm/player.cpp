@@ -10,8 +10,8 @@
 #include "retarget/t_pose_body.h"
 #include "rig/rig_body.h"
 #include "rig/up_axis.h"
-#include "style/removal.h"
-#include "style/side.h"
+#include "style/model/side.h"
+#include "style/play/removal.h"
 
 namespace panache::web {
 namespace {

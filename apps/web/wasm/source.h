@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "clip/motion_file.h"
 #include "rig/rig.h"
-#include "style/flight_lookout.h"
+#include "style/play/flight_lookout.h"
 #include "walker/walker.h"
 
 namespace panache::web {

@@ -9,7 +9,7 @@
 #include "eval/systems/styled_clip.h"
 #include "learn/samples.h"
 #include "pose/loop.h"
-#include "style/play_clip.h"
+#include "style/play/play_clip.h"
 
 namespace panache {
 namespace {

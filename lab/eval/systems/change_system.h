@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "eval/system.h"
-#include "style/change_source.h"
+#include "style/networks/change_source.h"
 #include "style/restyle.h"
 
 namespace panache {

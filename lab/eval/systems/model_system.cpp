@@ -5,7 +5,7 @@
 
 #include "eval/systems/styled_clip.h"
 #include "learn/samples.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 #include "style/restyle.h"
 
 namespace panache {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "style/pose_change.h"
+#include "style/stages/pose_change.h"
 
 namespace panache {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "learn/take.h"
-#include "style/change_source.h"
+#include "style/networks/change_source.h"
 
 namespace panache {
 

@@ -2,8 +2,8 @@
 // Adds a gesture to the style's change.
 
 #include "pose/changed_joints.h"
-#include "style/gesture.h"
-#include "style/shape.h"
+#include "style/model/gesture.h"
+#include "style/stages/shape.h"
 
 namespace panache {
 

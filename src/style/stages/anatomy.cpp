@@ -9,7 +9,7 @@
 #include "pose/limb.h"
 #include "rig/beyond_range.h"
 #include "rig/canonical_body.h"
-#include "style/shape.h"
+#include "style/stages/shape.h"
 
 namespace panache {
 namespace {

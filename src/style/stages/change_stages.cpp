@@ -1,9 +1,9 @@
 #include "style/stages/change_stages.h"
 
-#include "style/rate.h"
 #include "style/stages/add_gesture.h"
 #include "style/stages/balance.h"
 #include "style/stages/fold.h"
+#include "style/stages/rate.h"
 
 namespace panache {
 namespace {

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "base/elementary.h"
-#include "style/stage_clock.h"
 #include "style/stages/anatomy.h"
 #include "style/stages/arms_clear.h"
 #include "style/stages/energy.h"
@@ -20,6 +19,7 @@
 #include "style/stages/root_motion.h"
 #include "style/stages/seat.h"
 #include "style/stages/shaping.h"
+#include "style/stages/stage_clock.h"
 #include "style/stages/stage_facts.h"
 #include "style/stages/stage_row.h"
 #include "style/stages/stage_work.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "style/rate.h"
+#include "style/stages/rate.h"
 
 namespace panache {
 namespace {

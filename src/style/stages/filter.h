@@ -4,7 +4,7 @@
 #include <array>
 
 #include "pose/style_delta.h"
-#include "style/shape.h"
+#include "style/stages/shape.h"
 #include "style/stages/step_time.h"
 
 namespace panache {

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "pose/changed_joints.h"
+#include "style/model/stance.h"
 #include "style/stages/step_time.h"
-#include "style/stance.h"
 
 namespace panache {
 

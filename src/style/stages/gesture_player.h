@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/random.h"
-#include "style/model.h"
+#include "style/model/model.h"
 #include "style/stages/step_time.h"
 
 namespace panache {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "style/pose_change.h"
+#include "style/stages/pose_change.h"
 
 namespace panache {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "pose/style_delta.h"
 #include "rig/body_pose.h"
-#include "style/shape.h"
 #include "style/stages/root_motion.h"
+#include "style/stages/shape.h"
 #include "style/stages/step_time.h"
 
 namespace panache {

@@ -10,13 +10,13 @@
 #include "pose/hand_contacts.h"
 #include "pose/observer.h"
 #include "pose/style_delta.h"
-#include "style/gesture.h"
-#include "style/shape.h"
+#include "style/model/gesture.h"
+#include "style/model/stance.h"
 #include "style/stages/root_motion.h"
+#include "style/stages/shape.h"
 #include "style/stages/steady_arms.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
-#include "style/stance.h"
 
 namespace panache {
 

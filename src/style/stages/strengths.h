@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "style/shape.h"
+#include "style/stages/shape.h"
 #include "style/stages/step_time.h"
 
 namespace panache {

@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 #include "make_model.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 
 namespace panache {
 namespace {

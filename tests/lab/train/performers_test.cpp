@@ -7,7 +7,7 @@
 
 #include "known_recipes.h"
 #include "make_styled_takes.h"
-#include "style/pose_change.h"
+#include "style/stages/pose_change.h"
 
 namespace panache {
 namespace {

@@ -5,7 +5,7 @@
 #include "base/random.h"
 #include "body_tensor.h"
 #include "make_styled_takes.h"
-#include "style/pose_change.h"
+#include "style/stages/pose_change.h"
 
 namespace panache {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "learn/make_takes.h"
 #include "make_model.h"
-#include "style/predictor_network.h"
+#include "style/model/predictor_network.h"
 
 namespace panache {
 namespace {

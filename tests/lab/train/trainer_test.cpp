@@ -8,7 +8,7 @@
 
 #include "known_recipes.h"
 #include "make_manifest.h"
-#include "style/networks.h"
+#include "style/networks/networks.h"
 #include "temporary_folder.h"
 #include "train/checkpoint.h"
 #include "train/export.h"

@@ -1,0 +1,148 @@
+#include "style/play/playback.h"
+
+#include <algorithm>
+
+#include "base/one_pole.h"
+#include "style/play/cycle_search.h"
+#include "style/stages/pose_change.h"
+
+namespace panache {
+namespace {
+
+constexpr double kSearchEvery = 0.06;  // Seconds.
+constexpr double kBlend = 0.2;         // Seconds from the old head to the new one.
+// Time constant for predictions beyond the newest pose, which are noisier than motion.
+constexpr float kLeadSeconds = 0.04f;
+
+float blend_share(double t) { return static_cast<float>(t * t * (3 - 2 * t)); }
+
+}  // namespace
+
+Playback::Playback(const Rig& rig, float max_speed, std::shared_ptr<const Model> model,
+                   const PlaybackOptions& options)
+    : options_(options),
+      head_(options.max_lag, options.max_lead),
+      input_(rig, max_speed),
+      // A candidate for a cycle needs earlier poses, too.
+      ring_(rig.joint_count(), options.max_lag + (options.skip_cycles ? kBeforeCycle + kBlend : 0)),
+      shown_rotations_(rig.joint_count()),
+      old_rotations_(rig.joint_count()),
+      shown_translations_(rig.joint_count()),
+      old_translations_(rig.joint_count()) {
+  if (options.max_lead > 0) predictor_.emplace(std::move(model));
+}
+
+void Playback::reset() noexcept {
+  forget();
+  input_.reset();
+}
+
+void Playback::forget() noexcept {
+  head_.reset();
+  skipped_ = 0;
+  ring_.clear();
+  flights_.reset();
+  if (predictor_) predictor_->reset();
+  ahead_ = {};
+  time_ = searched_ = 0;
+  offset_ = old_offset_ = {};
+  old_ahead_ = 0, blended_ = 1;
+}
+
+bool Playback::take_in(ConstPose in, double seconds) noexcept {
+  const bool continues = input_.observe(in, seconds);
+  if (!continues) forget();
+  time_ += seconds;
+  const Observation& now = input_.now();
+  ring_.push(time_, input_.pose(), now.body_frame, now.root);
+  flights_.push(time_, now.world.positions);
+  if (predictor_) predictor_->push(time_, now.body_frame, now.root);
+  return continues;
+}
+
+RootPose Playback::root_at(double ahead) const noexcept {
+  if (ahead <= 0) return ring_.root(time_ + ahead);
+  const RootPose& now = input_.now().root;
+  return {now.position + ahead_.root.position, now.facing + ahead_.root.facing};
+}
+
+void Playback::look_ahead(double seconds) noexcept {
+  if (!predictor_) return;
+  const Observation& now = input_.now();
+  const PredictedPose wanted = predictor_->predict(std::max(head_.ahead(), 0.0));
+  const float gain = filter_gain(static_cast<float>(seconds), kLeadSeconds);
+  for (size_t j = 0; j < kHumanJoints; ++j) {
+    ahead_.body[j] += (wanted.body[j] - now.body_frame[j] - ahead_.body[j]) * gain;
+  }
+  const RootPose way{wanted.root.position - now.root.position,
+                     wanted.root.facing - now.root.facing};
+  ahead_.root.position += (way.position - ahead_.root.position) * gain;
+  ahead_.root.facing += (way.facing - ahead_.root.facing) * gain;
+}
+
+// The pose at a play head, with its offset.
+void Playback::pose_at(double ahead, const RootOffset& offset, Pose out) noexcept {
+  const Observation& now = input_.now();
+  if (ahead > 0) {
+    PredictedPose predicted{now.body_frame, root_at(ahead)};
+    for (size_t j = 0; j < kHumanJoints; ++j) predicted.body[j] += ahead_.body[j];
+    input_.write(change_between({now.body_frame, now.root}, predicted), out);
+  } else {
+    ring_.pose(time_ + ahead, out);
+  }
+  // Turns the whole body in place and moves it, by its root joints.
+  input_.rig().transform_root(offset.turn, root_at(ahead).position, offset.translation, out);
+}
+
+// Skips or repeats a cycle if that is due and the motion has one.
+void Playback::skip_cycle(double rate) noexcept {
+  if (!options_.skip_cycles || blended_ < 1 || time_ - searched_ < kSearchEvery) return;
+  searched_ = time_;
+  const double at = time_ + std::min(head_.ahead(), 0.0);
+  std::optional<double> away;
+  if (rate < 1) {
+    // Lagging by a cycle: look for a later, similar pose.
+    away = find_cycle(ring_, at, kShortestCycle, std::min(kLongestCycle, time_ - at));
+  } else if (rate > 1 && head_.room_ahead() < 1) {
+    // At the maximum lead: look for an earlier one.
+    const double oldest = std::max(ring_.oldest() + kBeforeCycle, time_ - options_.max_lag);
+    away = find_cycle(ring_, at, std::max(-kLongestCycle, oldest - at), -kShortestCycle);
+  }
+  if (!away) return;
+  old_ahead_ = head_.ahead();
+  old_offset_ = offset_;
+  const RootPose old = root_at(old_ahead_), next = root_at(old_ahead_ + *away);
+  offset_.translation += old.position - next.position;
+  offset_.turn += old.facing - next.facing;
+  blended_ = 0;
+  head_.jump(*away);
+  skipped_ += *away > 0 ? 1 : -1;
+}
+
+// The old head continues during the blend to the new one.
+void Playback::blend_from_old(double seconds, double played, Pose shown) noexcept {
+  if (blended_ >= 1) return;
+  blended_ = std::min(1.0, blended_ + seconds / kBlend);
+  old_ahead_ = std::clamp(old_ahead_ + played - seconds, -options_.max_lag, options_.max_lead);
+  const Pose old{old_rotations_, old_translations_};
+  pose_at(old_ahead_, old_offset_, old);
+  const float share = blend_share(blended_);
+  for (size_t j = 0; j < shown.rotations.size(); ++j) {
+    shown.rotations[j] = nlerp(old.rotations[j], shown.rotations[j], share);
+    shown.translations[j] = lerp(old.translations[j], shown.translations[j], share);
+  }
+}
+
+Playback::Shown Playback::show(double seconds, double rate, bool styled) noexcept {
+  const double played = head_.advance(seconds, rate, styled);
+  offset_.turn *= exponential(-static_cast<float>(seconds) / kCourseSeconds);
+  look_ahead(seconds);
+  skip_cycle(rate);
+
+  const Pose shown{shown_rotations_, shown_translations_};
+  pose_at(head_.ahead(), offset_, shown);
+  blend_from_old(seconds, played, shown);
+  return {shown, played, flights_.amount(time_ + head_.ahead())};
+}
+
+}  // namespace panache
