@@ -29,7 +29,7 @@ struct StyleName {
   std::string description;
   std::string group = {};  // Its heading in lists, "moods"; "" without one.
   std::string words = {};  // Other words for it, separated by spaces; may be empty.
-  std::string side = {};   // What its takes show: "right leg", see style/model/side.h; may be empty.
+  std::string side = {};   // What its takes show: "right leg" (style/model/side.h); may be empty.
 };
 
 // Reads a CSV with the columns path, style, content, take, neutral, split and optionally person, in
