@@ -12,7 +12,6 @@
 #include "pose/contacts.h"
 #include "pose/features.h"
 #include "style/model/model.h"
-#include "style/model/names.h"
 
 namespace panache::test {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "messages.h"
-#include "style/play/restyle_facts.h"
+#include "style/restyle.h"
 
 namespace panache::cli {
 

@@ -6,7 +6,7 @@
 
 #include "clip/text_cursor.h"
 #include "model_path.h"
-#include "style/model/names.h"
+#include "style/model/model.h"
 #include "usage_error.h"
 
 namespace panache::cli {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "style/model/names.h"
+#include "style/model/model.h"
 #include "style/networks/networks.h"
 
 namespace panache {

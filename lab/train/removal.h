@@ -9,7 +9,6 @@
 #include "base/result.h"
 #include "learn/samples.h"
 #include "style/model/model.h"
-#include "style/model/names.h"
 #include "train/training_data.h"
 
 namespace panache {

@@ -6,7 +6,7 @@
 #include "api/objects.h"
 #include "api/options.h"
 #include "api/poses.h"
-#include "style/crowd.h"
+#include "style/stylizer.h"
 
 using namespace panache;
 using namespace panache::api;

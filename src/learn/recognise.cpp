@@ -8,7 +8,7 @@
 #include "learn/samples.h"
 #include "net/aligned_vector.h"
 #include "pose/mirror.h"
-#include "style/model/names.h"
+#include "style/model/model.h"
 
 namespace panache {
 namespace {

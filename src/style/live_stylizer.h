@@ -6,7 +6,7 @@
 #include <span>
 
 #include "style/play/playback.h"
-#include "style/play/removal_pass.h"
+#include "style/play/removal.h"
 #include "style/stylizer.h"
 
 namespace panache {

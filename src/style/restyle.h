@@ -1,6 +1,6 @@
 #pragma once
 // Restyles a whole clip at the style's tempo: the play head runs through the input as fast or as
-// slowly as the style requests. Loops stay loops.
+// slowly as the style requests. Loops stay loops. And facts about the result.
 
 #include <functional>
 #include <string>
@@ -73,5 +73,19 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig,
                          const std::vector<StrengthTrack>& tracks,
                          const RestyleOptions& options = {},
                          const std::function<void(double)>& progress = {});
+
+struct RestyleFacts {
+  bool unchanged = false;  // The result is the clip, bit for bit.
+  LoopFacts loop;
+  // Shares, 0 to 1: the mean of Stylizer::gate(), frames in which something besides the feet held
+  // the body, and frames in which hands kept what they touch.
+  float known = 1, seated = 0, touching = 0;
+  // The share of frames with a planted foot that stands in the input, 0 to 1, and the mean sliding
+  // speed of such feet's toes in the result and in the input, m/s.
+  float planted = 0, slide = 0, input_slide = 0;
+};
+
+// `clip`: the input of `result`, with the joints of `rig`.
+RestyleFacts restyle_facts(const Clip& clip, const Rig& rig, const Restyled& result);
 
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// Restyles one character live, step by step.
+// Restyles one character live, step by step, or many together.
 
 #include <memory>
 #include <span>
@@ -102,5 +102,19 @@ class Stylizer {
   Stepper stepper_;
   NetworkSource source_;
 };
+
+// One character's part in a step of many; the arguments of Stylizer::step().
+struct CrowdMember {
+  Stylizer* character;
+  ConstPose in;
+  std::span<const float> strengths;
+  Pose out;
+};
+
+// Steps every member by `seconds`, with results identical to separate steps. Fastest if characters
+// of one model are adjacent. A character that occurs twice is stepped twice, in order. A member's
+// `out` may be the same as its `in`, but must not overlap another's. Allocates nothing, never
+// fails; uses about 200 KB of stack.
+void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept;
 
 }  // namespace panache

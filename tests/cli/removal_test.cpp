@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
-#include "style/model/names.h"
+#include "style/model/model.h"
 
 namespace panache::test {
 namespace {

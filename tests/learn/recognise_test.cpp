@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "make_clip.h"
-#include "style/model/names.h"
+#include "style/model/model.h"
 #include "style/play/removal.h"
 #include "walker/walker.h"
 

@@ -1,6 +1,6 @@
 // Characters stepped together: the bits that each gets alone.
 
-#include "style/crowd.h"
+#include "style/stylizer.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,12 +1,10 @@
 // Names of gestures: words for what one sees, different for all of a style.
 
-#include "style/model/gesture_name.h"
+#include "style/model/gesture.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
-
-#include "style/model/gesture.h"
 
 namespace panache {
 namespace {

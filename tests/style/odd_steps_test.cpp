@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "rig/canonical_skeleton.h"
-#include "style/crowd.h"
 #include "style/live_stylizer.h"
+#include "style/stylizer.h"
 #include "walker/walker.h"
 
 namespace panache {

@@ -12,8 +12,8 @@
 #include "make_persons.h"
 #include "net/quantize.h"
 #include "read_model.h"
-#include "style/crowd.h"
 #include "style/restyle.h"
+#include "style/stylizer.h"
 
 namespace panache {
 namespace {

@@ -1,4 +1,4 @@
-#include "style/play/removal_pass.h"
+#include "style/play/removal.h"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 
 #include "make_clip.h"
 #include "make_model.h"
-#include "style/model/names.h"
+#include "style/model/model.h"
 
 namespace panache {
 namespace {

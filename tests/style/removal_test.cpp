@@ -7,7 +7,7 @@
 #include "make_clip.h"
 #include "make_model.h"
 #include "style/live_stylizer.h"
-#include "style/model/names.h"
+#include "style/model/model.h"
 
 namespace panache {
 namespace {

@@ -13,7 +13,6 @@
 #include "make_loop.h"
 #include "pose/observer.h"
 #include "rig/put_on.h"
-#include "style/play/restyle_facts.h"
 #include "style/restyle.h"
 
 namespace panache {

@@ -9,7 +9,6 @@
 #include "clip/motion_file.h"
 #include "make_clip.h"
 #include "net/quantize.h"
-#include "style/play/restyle_facts.h"
 #include "style/restyle.h"
 #include "walker/walker.h"
 

@@ -10,7 +10,6 @@
 #include "count_allocations.h"
 #include "make_clip.h"
 #include "make_model.h"
-#include "style/crowd.h"
 
 namespace panache {
 namespace {

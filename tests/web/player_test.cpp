@@ -9,7 +9,7 @@
 #include "make_clip.h"
 #include "make_jump.h"
 #include "make_model.h"
-#include "style/model/names.h"
+#include "style/model/model.h"
 
 namespace panache::web {
 namespace {

@@ -11,7 +11,7 @@
 #include "rig/body_mesh.h"
 #include "rig/mannequin.h"
 #include "source.h"
-#include "style/play/removal_pass.h"
+#include "style/play/removal.h"
 #include "style/restyle.h"
 
 namespace panache::web {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <span>
 
-#include "style/model/gesture_name.h"
-
 namespace panache {
 namespace {
 

@@ -1,11 +1,10 @@
-#include "style/model/gesture_name.h"
+#include "style/model/gesture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "base/quat.h"
-#include "style/model/gesture.h"
 
 namespace panache {
 namespace {

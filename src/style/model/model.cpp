@@ -6,8 +6,9 @@
 #include "base/lower_case.h"
 #include "base/nearest_names.h"
 #include "base/one_of.h"
+#include "pose/features.h"
 #include "recipes/recipes.h"
-#include "style/model/names.h"
+#include "rig/humanoid.h"
 #include "style/model/predictor_network.h"
 #include "style/model/side.h"
 
@@ -201,6 +202,31 @@ Result<int> Model::find_style_by_any_name(std::string_view style) const {
                              : std::find_if(styles_.begin(), styles_.end(), means);
   if (found == styles_.end()) return exact;
   return static_cast<int>(found - styles_.begin());
+}
+
+std::string canonical_joint_list() {
+  std::string list;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    if (j) list += ' ';
+    list += human_joint_name(j);
+  }
+  return list;
+}
+
+std::string window_description() {
+  static_assert(kWindowPoses == 6 && kWindowSpacing == 0.05);
+  return "6 poses 0.05 s apart";
+}
+
+// Without streams, which would add all locales of the library to the page's module.
+std::vector<std::string> split_lines(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
 }
 
 }  // namespace panache

@@ -6,7 +6,6 @@
 
 #include "base/random.h"
 #include "style/model/model.h"
-#include "style/model/names.h"
 
 namespace panache {
 namespace {

@@ -1,13 +1,47 @@
 #include "style/play/playback.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "base/one_pole.h"
-#include "style/play/cycle_search.h"
+#include "pose/pose_distance.h"
+#include "style/play/input_ring.h"
 #include "style/stages/pose_change.h"
 
 namespace panache {
 namespace {
+
+// The length of a cycle: even a shuffle of two steps takes longer than the minimum. Seconds.
+constexpr double kShortestCycle = 0.4, kLongestCycle = 2.0;
+// The poses this long before must be similar, too. Seconds.
+constexpr double kBeforeCycle = 0.1;
+
+// Two poses match if their joints are this close, on average and each. Metres. Cycles of one
+// person's walk differ by two to three centimetres in the mean.
+constexpr float kMaxDistance = 0.04f, kMaxDistanceEach = 0.15f;
+constexpr double kCandidates = 1.0 / 60;  // Seconds between compared poses.
+
+// The offset from `at` (a time in `ring`) of the most similar pose, among offsets from `nearest` to
+// `farthest` (seconds, negative is earlier); nothing if none is similar enough. `ring` must reach
+// kBeforeCycle further back than both.
+std::optional<double> find_cycle(const InputRing& ring, double at, double nearest,
+                                 double farthest) noexcept {
+  const HumanPositions here = ring.body(at), before = ring.body(at - kBeforeCycle);
+  std::optional<double> best;
+  float min = kMaxDistance;
+  const int candidates = static_cast<int>(std::floor((farthest - nearest) / kCandidates)) + 1;
+  for (int c = 0; c < candidates; ++c) {
+    const double away = nearest + c * kCandidates, to = at + away;
+    const PoseDistance now = pose_distance(here, ring.body(to)),
+                       then = pose_distance(before, ring.body(to - kBeforeCycle));
+    const float mean = (now.mean + then.mean) / 2;
+    if (mean >= min || std::max(now.largest, then.largest) > kMaxDistanceEach) continue;
+    min = mean;
+    best = away;
+  }
+  return best;
+}
 
 constexpr double kSearchEvery = 0.06;  // Seconds.
 constexpr double kBlend = 0.2;         // Seconds from the old head to the new one.

@@ -3,7 +3,7 @@
 #include "style/stages/add_gesture.h"
 #include "style/stages/balance.h"
 #include "style/stages/fold.h"
-#include "style/stages/rate.h"
+#include "style/stages/shape.h"
 
 namespace panache {
 namespace {

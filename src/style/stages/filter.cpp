@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "style/stages/rate.h"
+#include "style/stages/shape.h"
 
 namespace panache {
 namespace {

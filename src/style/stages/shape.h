@@ -1,6 +1,7 @@
 #pragma once
-// The amounts of a style's effects.
+// The amounts of a style's effects, and the range of its tempo.
 
+#include <algorithm>
 #include <array>
 
 #include "rig/humanoid.h"
@@ -42,5 +43,12 @@ struct Shape {
 
 // Every style as it was captured.
 inline constexpr Shape kPlainShape;
+
+// Half to double tempo, as the logarithm of input seconds per output second.
+inline constexpr float kMaxLogRate = 0.7f;
+
+inline float bounded_log_rate(float log_rate) noexcept {
+  return std::clamp(log_rate, -kMaxLogRate, kMaxLogRate);
+}
 
 }  // namespace panache
