@@ -12,7 +12,6 @@
 #include "messages.h"
 #include "onto.h"
 #include "rig/body_motions.h"
-#include "rig/in_place.h"
 #include "rig_report.h"
 #include "verbs.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/one_of.h"
+#include "base/names.h"
 #include "clip/gltf.h"
 #include "clip/smpl.h"
 #include "fbx.h"
@@ -16,12 +16,11 @@
 #include "input.h"
 #include "messages.h"
 #include "npz.h"
-#include "retarget/find_body.h"
+#include "retarget/reference_pose.h"
 #include "retarget/retarget.h"
-#include "retarget/t_pose_body.h"
+#include "rig/body_mesh.h"
 #include "rig/body_motions.h"
-#include "rig/rig_body.h"
-#include "rig/up_axis.h"
+#include "rig/file_space.h"
 
 namespace panache::cli {
 namespace {

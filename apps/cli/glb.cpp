@@ -9,7 +9,7 @@
 
 #include "base/file.h"
 #include "base/little_endian.h"
-#include "base/utf8.h"
+#include "base/text.h"
 #include "clip/gltf_json.h"
 #include "clip/gltf_uri.h"
 #include "clip/text_cursor.h"

@@ -12,7 +12,6 @@
 #include "learn/recognise.h"
 #include "learn/style_file.h"
 #include "messages.h"
-#include "model_edit.h"
 #include "model_path.h"
 #include "model_report.h"
 #include "pose/loop.h"

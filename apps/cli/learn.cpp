@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "base/file.h"
-#include "base/stopwatch.h"
+#include "base/progress.h"
 #include "input.h"
 #include "learn/learn_person.h"
 #include "learn/learn_style.h"
 #include "learn/style_file.h"
 #include "messages.h"
-#include "model_edit.h"
 #include "model_path.h"
 #include "rig_options.h"
 #include "verbs.h"

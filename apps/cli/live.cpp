@@ -18,11 +18,11 @@
 #include "outputs.h"
 #include "page_server.h"
 #include "person_options.h"
+#include "program.h"
 #include "sides.h"
-#include "style_options.h"
 #include "stop_signal.h"
 #include "strengths.h"
-#include "usage_error.h"
+#include "style_options.h"
 #include "verbs.h"
 #include "vmc_relay.h"
 

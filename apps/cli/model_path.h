@@ -1,9 +1,10 @@
 #pragma once
-// Finds the models that are shipped with the program.
+// Model files on disk: finds those that are shipped with the program, and edits files in place.
 
 #include <string>
 
 #include "base/result.h"
+#include "net/safetensors.h"
 
 namespace panache::cli {
 
@@ -22,5 +23,14 @@ Result<std::string> find_shipped(const std::string& file_name);
 // PANACHE_MODEL, else the shipped model `file_name`. Does not read the file.
 Result<std::string> find_model(const std::string& given,
                                const std::string& file_name = kDefaultModel);
+
+// The tensors of a model or style file.
+Result<TensorFile> read_tensors(const std::string& path);
+
+// Rejects a read-only file: replacing it by renaming would not need write permission.
+Result<void> check_writable(const std::string& path);
+
+// Replaces a model file atomically; a link remains a link. The file must be writable.
+Result<void> replace_model(const std::string& path, const TensorFile& model);
 
 }  // namespace panache::cli

@@ -2,13 +2,13 @@
 
 #include <utility>
 
+#include "clip/motion_file.h"
 #include "clip/motion_format.h"
 #include "clip/text_cursor.h"
-#include "clip/unique_name.h"
 #include "formats.h"
 #include "input.h"
 #include "messages.h"
-#include "retarget/find_body.h"
+#include "retarget/retarget.h"
 #include "rig/body_motions.h"
 
 namespace panache::cli {

@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "clip/text_cursor.h"
-#include "style/model/person.h"
+#include "program.h"
 #include "strengths.h"
-#include "usage_error.h"
+#include "style/model/person.h"
 
 namespace panache::cli {
 namespace {

@@ -1,9 +1,10 @@
 #pragma once
-// What this project's programs share: the command line, messages and exit codes.
-
-#include <memory>
+// What this project's programs share: the command line, its errors in our words (CLI11's
+// messages mention types and internals), messages and exit codes.
 
 #include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
 
 namespace panache::cli {
 
@@ -20,5 +21,12 @@ std::unique_ptr<CLI::App> make_app(const Program& program, int& exit_code);
 
 // Runs the program and returns its exit code. Prints errors, including exceptions.
 int run_program(const Program& program, int argc, char** argv);
+
+// The message for arguments that could not be parsed. `verb` is the command they belong to, or the
+// program itself if no command was given.
+std::string usage_message(const CLI::ParseError& error, const CLI::App& verb);
+
+// Accepts numbers from `low` to `high`; otherwise fails with the message of check_range().
+CLI::Validator in_range(double low, double high);
 
 }  // namespace panache::cli

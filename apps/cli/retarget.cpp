@@ -9,7 +9,7 @@
 #include "input.h"
 #include "messages.h"
 #include "onto.h"
-#include "rig/in_place.h"
+#include "rig/body_motions.h"
 #include "rig_report.h"
 #include "verbs.h"
 

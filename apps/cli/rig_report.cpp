@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "rig/usual_unit.h"
+#include "rig/file_space.h"
 
 namespace panache::cli {
 namespace {

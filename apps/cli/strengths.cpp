@@ -7,8 +7,7 @@
 #include <fast_float/fast_float.h>
 
 #include "base/csv.h"
-#include "base/lower_case.h"
-#include "base/one_of.h"
+#include "base/names.h"
 #include "clip/text_cursor.h"
 #include "messages.h"
 

@@ -6,8 +6,8 @@
 
 #include "clip/text_cursor.h"
 #include "model_path.h"
+#include "program.h"
 #include "style/model/model.h"
-#include "usage_error.h"
 
 namespace panache::cli {
 namespace {

@@ -9,9 +9,7 @@
 
 #include "base/file.h"
 #include "learn/style_file.h"
-#include "learn/thumbnail.h"
 #include "messages.h"
-#include "model_edit.h"
 #include "model_path.h"
 #include "model_report.h"
 #include "style/restyle.h"

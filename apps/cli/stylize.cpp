@@ -18,13 +18,13 @@
 #include "onto.h"
 #include "person_options.h"
 #include "restyle_report.h"
+#include "rig/body_motions.h"
 #include "rig/figures.h"
-#include "rig/in_place.h"
 #include "rig_report.h"
 #include "sides.h"
-#include "style_options.h"
 #include "strengths.h"
 #include "style/restyle.h"
+#include "style_options.h"
 #include "verbs.h"
 
 namespace panache::cli {

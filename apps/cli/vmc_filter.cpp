@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "base/one_pole.h"
+#include "base/easing.h"
 #include "vmc_bones.h"
 
 namespace panache::cli {

@@ -13,7 +13,6 @@
 
 #include "messages.h"
 #include "vmc_bones.h"
-#include "vmc_coordinates.h"
 
 namespace panache::cli {
 namespace {

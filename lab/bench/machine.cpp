@@ -1,10 +1,9 @@
-#include "bench/machine.h"
+#include "bench/measure.h"
 
 #include <algorithm>
 #include <fstream>
 #include <vector>
 
-#include "bench/measure.h"
 #include "net/dense.h"
 
 // Running sums are kept in arrays, because vectors of unknown length cannot be.

@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "net/aligned_vector.h"
 #include "net/dense.h"
 #include "net/layer.h"
 #include "net/mlp.h"
-#include "net/quantize.h"
+#include "net/rows.h"
 
 namespace panache::bench {
 namespace {

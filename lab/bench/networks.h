@@ -46,7 +46,7 @@ class Evaluation {
 void run_plainly(std::span<const Network> networks, std::span<const float> x, std::span<float> y);
 
 // The networks in our own kernels, evaluated as StyleNetworks evaluates a model; with `int8`,
-// weights are quantized (net/quantize.h).
+// weights are quantized (net/layer.h).
 Result<std::unique_ptr<Evaluation>> make_own_evaluation(std::span<const Network> networks,
                                                         bool int8);
 

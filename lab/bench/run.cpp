@@ -10,9 +10,9 @@
 #include "bench/networks.h"
 #include "bench/peers.h"
 #include "bench/published.h"
-#include "net/aligned_vector.h"
 #include "net/dense.h"
-#include "net/quantize.h"
+#include "net/layer.h"
+#include "net/rows.h"
 #include "net/safetensors.h"
 
 namespace panache::bench {

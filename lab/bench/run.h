@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/result.h"
-#include "bench/machine.h"
 #include "bench/measure.h"
 #include "bench/steps.h"
 

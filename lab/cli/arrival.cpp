@@ -9,7 +9,6 @@
 #include "eval/arrival.h"
 #include "eval/claims.h"
 #include "eval/systems/model_system.h"
-#include "eval/walker_walks.h"
 #include "lab_verbs.h"
 #include "manifests.h"
 #include "messages.h"

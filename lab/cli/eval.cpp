@@ -15,7 +15,7 @@
 #include "messages.h"
 #include "model_path.h"
 #include "outputs.h"
-#include "usage_error.h"
+#include "program.h"
 #include "lab_verbs.h"
 
 namespace panache::cli {

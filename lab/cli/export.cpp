@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "messages.h"
-#include "model_edit.h"
+#include "model_path.h"
 #include "onnx_model.h"
 #include "outputs.h"
 #include "lab_verbs.h"

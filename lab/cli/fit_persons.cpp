@@ -9,7 +9,7 @@
 #include "lab_verbs.h"
 #include "manifests.h"
 #include "messages.h"
-#include "model_edit.h"
+#include "model_path.h"
 #include "train/persons.h"
 
 namespace panache::cli {

@@ -10,7 +10,7 @@
 #include "learn/style_file.h"
 #include "manifests.h"
 #include "messages.h"
-#include "model_edit.h"
+#include "model_path.h"
 
 namespace panache::cli {
 namespace {

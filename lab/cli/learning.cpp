@@ -8,7 +8,7 @@
 #include "lab_verbs.h"
 #include "manifests.h"
 #include "messages.h"
-#include "model_edit.h"
+#include "model_path.h"
 
 namespace panache::cli {
 namespace {

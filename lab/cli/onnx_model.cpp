@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "onnx_graph.h"
 #include "pose/features.h"
 #include "style/model/model.h"

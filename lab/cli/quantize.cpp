@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "learn/style_file.h"
 #include "messages.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "outputs.h"
 #include "style/model/model.h"
 #include "lab_verbs.h"

@@ -14,7 +14,7 @@
 #include "style/model/model.h"
 #include "train/checkpoint.h"
 #include "train/trainer.h"
-#include "usage_error.h"
+#include "program.h"
 #include "lab_verbs.h"
 
 namespace panache::cli {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/xml.h"
+#include "base/text.h"
 
 namespace panache {
 namespace {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "eval/system.h"
-#include "learn/pose_error.h"
 #include "learn/take.h"
 #include "style/model/model.h"
 

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
+#include "eval/gait_traits.h"
 #include "eval/system.h"
 #include "eval/test_input.h"
-#include "eval/gait_traits.h"
 
 namespace panache {
 
@@ -82,5 +83,8 @@ template <Walks walks>
 const ArrivedShares& made_shares(const StyleArrival& style) {
   return style.made[static_cast<size_t>(walks)];
 }
+
+// Straight walks at a slow, a usual and a brisk speed; `walker_model`: a file.
+Result<std::vector<TestInput>> walker_walks(const std::string& walker_model);
 
 }  // namespace panache

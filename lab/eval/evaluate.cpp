@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "base/stopwatch.h"
+#include "eval/arrival.h"
 #include "eval/disturbances.h"
 #include "eval/motion_metrics.h"
 #include "eval/ood.h"
@@ -18,7 +18,6 @@
 #include "eval/systems/mean_posture.h"
 #include "eval/systems/model_system.h"
 #include "eval/systems/recorded.h"
-#include "eval/walker_walks.h"
 #include "train/persons.h"
 
 namespace panache {

@@ -4,14 +4,15 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <torch/types.h>
 #include <utility>
 #include <vector>
 
 #include "eval/aligned_takes.h"
-#include "train/classifier.h"
 #include "eval/measure.h"
 #include "eval/system.h"
 #include "learn/take.h"
+#include "train/classifier.h"
 
 namespace panache {
 
@@ -68,5 +69,10 @@ class Evaluator {
   std::map<StyleContent, Verdicts> references_;  // Of test_.
   StyleContentTable real_;
 };
+
+// Frechet distance of the normal distributions fitted to the rows of `a` and `b` (Heusel et al.
+// 2017): |m_a - m_b|^2 + tr(S_a + S_b - 2 (S_a S_b)^(1/2)). Both need at least one row, and the
+// same columns.
+double frechet_distance(const torch::Tensor& a, const torch::Tensor& b);
 
 }  // namespace panache

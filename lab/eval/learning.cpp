@@ -3,11 +3,11 @@
 #include <memory>
 #include <tuple>
 
-#include "base/stopwatch.h"
+#include "base/progress.h"
 #include "learn/learn_style.h"
-#include "learn/pose_error.h"
 #include "learn/samples.h"
 #include "learn/style_file.h"
+#include "learn/take.h"
 #include "rig/canonical_skeleton.h"
 #include "style/networks/networks.h"
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "eval/metrics.h"
-#include "learn/pose_error.h"
 #include "learn/take.h"
 
 namespace panache {

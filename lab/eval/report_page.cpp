@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/file.h"
-#include "base/xml.h"
+#include "base/text.h"
 #include "draw/strip.h"
 #include "eval/report.h"
 

@@ -7,8 +7,6 @@
 #include <set>
 
 #include "learn/disturbance.h"
-#include "train/anatomy_loss.h"
-#include "train/standing_loss.h"
 #include "train/styled_bodies.h"
 
 namespace panache {

@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "learn/fit_style.h"
 #include "learn/learn_person.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "recipes/recipes.h"
 #include "style/networks/networks.h"
 #include "style/stages/pose_change.h"

@@ -4,10 +4,13 @@
 // covers more people and actions than the styled takes.
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "learn/samples.h"
+#include "learn/take.h"
+#include "net/safetensors.h"
 #include "style/model/model.h"
 #include "train/training_data.h"
 
@@ -26,5 +29,9 @@ int take_with_style(const std::vector<Take>& takes, const Sample& sample);
 // read.
 Result<void> prepare_removal(const Model& model, const std::vector<ManifestRow>& unlabelled,
                              uint64_t seed, TrainingData& data);
+
+// Adds the tensors of Model::Recognition to a model file. The classes are the styles of the model
+// and neutral, named as in the rows of the takes. Fails if the file is not a model.
+Result<void> add_recognition(const std::vector<Take>& takes, uint64_t seed, TensorFile& file);
 
 }  // namespace panache

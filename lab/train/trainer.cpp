@@ -9,19 +9,16 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "base/stopwatch.h"
 #include "learn/fit_style.h"
 #include "train/checkpoint.h"
 #include "train/coverage.h"
 #include "train/export.h"
 #include "train/fingerprint.h"
 #include "train/fit_heads.h"
-#include "train/gate.h"
 #include "train/guidance.h"
 #include "train/performers.h"
-#include "train/position_loss.h"
-#include "train/recogniser.h"
 #include "train/removal.h"
+#include "train/styled_bodies.h"
 #include "train/train_predictor.h"
 
 namespace panache {

@@ -4,7 +4,6 @@
 #include <tuple>
 
 #include "base/progress.h"
-#include "base/stopwatch.h"
 #include "train/matrix_products.h"
 
 namespace panache {

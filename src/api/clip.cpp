@@ -2,12 +2,14 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "api/errors.h"
 #include "api/objects.h"
 #include "api/options.h"
 #include "api/poses.h"
 #include "learn/recognise.h"
+#include "retarget/retarget.h"
 #include "style/play/removal.h"
 
 using namespace panache;
@@ -179,4 +181,34 @@ const float* panache_styled_clip_gates(const panache_styled_clip* styled) {
 
 int32_t panache_styled_clip_is_loop(const panache_styled_clip* styled) {
   return styled->restyled.loop.closed;
+}
+
+panache_status panache_retarget_clip(const panache_clip* clip, const panache_skeleton* onto,
+                                     const panache_retarget_options* options,
+                                     panache_styled_clip** out) {
+  start(out);
+  return guarded([&] {
+    const auto given = read_struct<panache_retarget_options>(options, PANACHE_RETARGET_OPTIONS,
+                                                             "panache_retarget_options");
+    if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error());
+    const Result<Clip> motion = read_clip(*clip, Rotations::unit, "clip");
+    if (!motion) return fail(PANACHE_BAD_CLIP, motion.error());
+    if (motion->frames == 0) return fail(PANACHE_BAD_CLIP, {"clip: has no frames"});
+    const Rig& rig = clip->skeleton->rig;
+    Result<Retargeted> done = retarget(*motion, rig, onto->body, onto->rig,
+                                       {given->hold_feet != 0, given->meet_hands != 0});
+    if (!done) return fail(PANACHE_BAD_SKELETON, done.error());
+    auto result = std::make_unique<panache_styled_clip>();
+    const int first = motion->frames - done->clip.frames;
+    for (int f = 0; f < done->clip.frames; ++f) {
+      result->restyled.source_frames.push_back(first + f);
+      result->restyled.gates.push_back(1);
+      const FootContacts& feet = done->contacts[f];
+      result->contacts.insert(result->contacts.end(), feet.begin(), feet.end());
+    }
+    result->restyled.clip = std::move(done->clip);
+    result->restyled.contacts = std::move(done->contacts);
+    *out = result.release();
+    return PANACHE_OK;
+  });
 }

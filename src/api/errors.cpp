@@ -1,6 +1,9 @@
+// The C interface: checks arguments and calls the library. Here: errors, and the functions without
+// an object.
 #include "api/errors.h"
 
-#include "base/utf8.h"
+#include "api/objects.h"
+#include "base/text.h"
 
 namespace panache::api {
 namespace {
@@ -33,3 +36,13 @@ const char* panache_last_error(void) { return panache::api::last_error; }
 panache_error_kind panache_last_error_kind(void) { return panache::api::last_kind; }
 
 static_assert(static_cast<int>(panache::ErrorKind::bad_style_name) == PANACHE_ERROR_BAD_STYLE_NAME);
+
+int32_t panache_version(void) {
+  return 10000 * PANACHE_VERSION_MAJOR + 100 * PANACHE_VERSION_MINOR + PANACHE_VERSION_PATCH;
+}
+
+const void* panache_bytes_data(const panache_bytes* bytes) { return bytes->bytes.data(); }
+
+size_t panache_bytes_size(const panache_bytes* bytes) { return bytes->bytes.size(); }
+
+void panache_bytes_destroy(panache_bytes* bytes) { delete bytes; }

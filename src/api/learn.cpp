@@ -1,9 +1,9 @@
 #include "api/errors.h"
 #include "api/model_file.h"
 #include "api/objects.h"
+#include "api/options.h"
 #include "api/poses.h"
-#include "api/sized_struct.h"
-#include "base/utf8.h"
+#include "base/text.h"
 #include "learn/style_file.h"
 
 using namespace panache;

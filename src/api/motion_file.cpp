@@ -4,10 +4,10 @@
 #include "api/objects.h"
 #include "api/options.h"
 #include "api/poses.h"
-#include "base/utf8.h"
+#include "base/text.h"
 #include "clip/motion_format.h"
 #include "pose/motion_notes.h"
-#include "retarget/find_body.h"
+#include "retarget/retarget.h"
 #include "rig/body_motions.h"
 
 using namespace panache;

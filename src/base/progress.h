@@ -1,11 +1,22 @@
 #pragma once
-// The progress of long work: a bar on stderr, or occasional log lines if that is not a terminal.
+// The time that long work takes, and its progress: a bar on stderr, or occasional log lines if
+// that is not a terminal.
 
 #include <chrono>
 #include <mutex>
 #include <string>
 
 namespace panache {
+
+class Stopwatch {
+ public:
+  // Since construction.
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_ = Clock::now();
+};
 
 class Progress {
  public:

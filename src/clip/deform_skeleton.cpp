@@ -1,11 +1,9 @@
-#include "clip/deform_skeleton.h"
+#include "clip/deform_tree.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
-
-#include "clip/deform_tree.h"
 
 namespace panache {
 namespace {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "clip/deform_skeleton.h"
+#include "clip/deform_tree.h"
 #include "clip/fbx_document.h"
 #include "clip/fbx_encode.h"
 

@@ -1,4 +1,4 @@
-#include "clip/fbx_bake.h"
+#include "clip/fbx_encode.h"
 
 #include <algorithm>
 #include <cassert>

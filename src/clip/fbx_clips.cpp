@@ -6,7 +6,7 @@
 #include "clip/fbx_document.h"
 #include "clip/gltf_scales.h"
 #include "clip/gltf_track.h"
-#include "clip/unique_name.h"
+#include "clip/motion_file.h"
 
 namespace panache {
 namespace {

@@ -169,7 +169,7 @@ Result<FbxDocument> read_fbx_document(std::string bytes, const std::string& name
 Result<void> read_fbx_models(FbxDocument& document);
 // fbx_bind.cpp: what skins and stored poses say about the models.
 void read_fbx_bind(FbxDocument& document);
-// fbx_stacks.cpp, fbx6_takes.cpp: the animation.
+// fbx_stacks.cpp: the animation.
 Result<void> read_fbx_stacks(FbxDocument& document);
 Result<void> read_fbx6_takes(FbxDocument& document);
 // fbx_clips.cpp: the joints, the rest pose and the clips.

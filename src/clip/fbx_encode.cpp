@@ -6,8 +6,7 @@
 #include <functional>
 #include <unordered_set>
 
-#include "clip/fbx_bake.h"
-#include "clip/unique_name.h"
+#include "clip/motion_file.h"
 
 namespace panache {
 namespace {

@@ -9,7 +9,7 @@
 #include "clip/euler.h"
 #include "clip/fbx.h"
 #include "clip/fbx_encode.h"
-#include "clip/unique_name.h"
+#include "clip/motion_file.h"
 
 namespace panache {
 namespace {

@@ -4,9 +4,9 @@
 #include <tuple>
 #include <utility>
 
-#include "base/utf8.h"
+#include "base/text.h"
 #include "clip/fbx_document.h"
-#include "clip/unique_name.h"
+#include "clip/motion_file.h"
 
 namespace panache {
 namespace {

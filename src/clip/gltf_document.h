@@ -10,8 +10,8 @@
 #include "clip/clip.h"
 #include "clip/gltf_container.h"
 #include "clip/gltf_track.h"
+#include "clip/motion_file.h"
 #include "clip/stretch.h"
-#include "clip/unique_name.h"
 
 namespace panache {
 
@@ -81,7 +81,7 @@ inline size_t gltf_max_values(size_t bytes) { return std::max<size_t>(10'000'000
 
 // gltf_nodes.cpp: the tree of nodes, and what skins and humanoids say about them.
 bool read_gltf_nodes(GltfDocument& document, GltfChecker& checker);
-// gltf_weights.cpp: the mesh vertices that follow each node; `container` is the document's, or an
+// gltf_animation.cpp: the mesh vertices that follow each node; `container` is the document's, or an
 // unpacked one.
 void read_gltf_weights(const GltfContainer& container, GltfDocument& document);
 // gltf_animation.cpp: the targets of the animations.

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "base/file.h"
-#include "base/lower_case.h"
+#include "base/names.h"
 #include "clip/acclaim.h"
 #include "clip/bvh.h"
+#include "clip/clip.h"
 #include "clip/fbx.h"
 #include "clip/gltf.h"
-#include "clip/rest_axes.h"
 #include "clip/text_cursor.h"
 
 namespace panache {

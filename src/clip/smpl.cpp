@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "clip/npy.h"
-#include "clip/smpl_skeleton.h"
 
 namespace panache {
 namespace {

@@ -5,7 +5,8 @@
 // Reads `poses` [frames, 72, 156 or 165], a rotation vector for each joint; `trans` [frames, 3],
 // metres; and `mocap_framerate`, `mocap_frame_rate`, `fps`, `framerate` or `frame_rate`, frames per
 // second. The axes are not converted: Z is up in AMASS, Y elsewhere. All other arrays, such as
-// betas and gender, are kept; body shape is not applied (clip/smpl_skeleton.h).
+// betas and gender, are kept; body shape is not applied: the joints are
+// those of the mean body.
 
 #include <memory>
 #include <string>
@@ -16,6 +17,19 @@
 #include "clip/motion_file.h"
 
 namespace panache {
+
+// The joints of the body models SMPL, SMPL-H and SMPL-X (Loper et al. 2015, Romero et al. 2017,
+// Pavlakos et al. 2019): the published tree, and approximate joint positions of their mean body.
+//
+// The models themselves are licensed and not needed: a pose consists of rotations of these joints.
+// The offsets match the mean body to half a centimetre and are symmetric; the shape of a person
+// (betas) is not applied. Metres, +Y up, facing +z, the T-pose of the models.
+inline constexpr size_t kSmplJoints = 24, kSmplHJoints = 52, kSmplXJoints = 55;
+
+// The skeleton of the model with this many joints, with the model's names and VRM roles. The offset
+// of the pelvis is its position in the model's own frame, whose origin is not on the floor: a body
+// stands on y = -1.2.
+Skeleton smpl_skeleton(size_t joints);
 
 struct NpzMember {
   std::string name;   // "poses.npy"

@@ -1,4 +1,4 @@
-#include "clip/smpl_skeleton.h"
+#include "clip/smpl.h"
 
 #include <array>
 #include <cassert>

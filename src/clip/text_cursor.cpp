@@ -8,8 +8,8 @@
 
 #include <fast_float/fast_float.h>
 
-#include "base/lower_case.h"
-#include "base/utf8.h"
+#include "base/names.h"
+#include "base/text.h"
 #include "clip/decimal.h"
 
 namespace panache {

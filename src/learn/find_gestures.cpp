@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "base/smooth_step.h"
+#include "base/easing.h"
 #include "learn/samples.h"
 
 namespace panache {

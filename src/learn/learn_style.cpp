@@ -11,9 +11,8 @@
 #include "learn/find_gestures.h"
 #include "learn/fit_style.h"
 #include "learn/pairing.h"
-#include "learn/pose_error.h"
 #include "learn/style_file.h"
-#include "learn/thumbnail.h"
+#include "learn/take.h"
 #include "recipes/recipes.h"
 #include "style/networks/networks.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/elementary.h"
 #include "learn/samples.h"
-#include "net/aligned_vector.h"
+#include "net/rows.h"
 #include "pose/mirror.h"
 #include "style/model/model.h"
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "base/lower_case.h"
+#include "base/names.h"
 #include "base/state_bytes.h"
-#include "base/xml.h"
+#include "base/text.h"
 #include "clip/decimal.h"
 #include "clip/text_cursor.h"
 #include "recipes/recipes.h"

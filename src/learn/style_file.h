@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "learn/take.h"
 #include "net/safetensors.h"
 #include "style/model/model.h"
 
@@ -66,5 +67,12 @@ Result<TensorFile> remove_style(const TensorFile& model, const std::string& styl
 // The model with the style `from` renamed to `to`. For any recipe.
 Result<TensorFile> rename_style(const TensorFile& model, const std::string& from,
                                 const std::string& to, const std::string& name);
+
+// A row of stick figures as an SVG file in one line, of less than 6 KB for six figures. `bodies`:
+// in the body frame, metres. The body's right is drawn dark, its left light.
+std::string draw_thumbnail(std::span<const HumanPositions> bodies);
+
+// Six instants of the middle 1.5 seconds of a take, or the single one of a pose.
+std::string thumbnail_of(const Take& take);
 
 }  // namespace panache

@@ -1,5 +1,6 @@
 #pragma once
-// Takes: motion retargeted to the canonical body at one rate, for pairing and learning.
+// Takes: motion retargeted to the canonical body at one rate, for pairing and learning; and how
+// far a styled pose is from a real one.
 
 #include <array>
 #include <functional>
@@ -12,6 +13,7 @@
 #include "learn/manifest.h"
 #include "pose/contacts.h"
 #include "pose/features.h"
+#include "pose/style_delta.h"
 #include "rig/rig.h"
 
 namespace panache {
@@ -47,5 +49,15 @@ void write_numbers(PoseLayout layout, Take& take);
 
 // World positions of a frame of a take (Y up, metres).
 HumanPositions world_positions(const Take& take, int frame);
+
+struct PoseError {
+  double degrees = 0;  // Mean over joints of the angle between local rotations.
+  double cm = 0;       // Mean over joints of the distance on the canonical body, body frame.
+};
+
+// The remaining distance between the neutral take at frame `at`, with `change` on it, and frame
+// `frame` of the styled take. Both takes are of one character; root motion is not compared.
+PoseError pose_error(const Take& styled, int frame, const Take& neutral, float at,
+                     const StyleDelta& change);
 
 }  // namespace panache

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <utility>
 
-#include "net/aligned_vector.h"
 #include "net/int8_rounding.h"
+#include "net/rows.h"
 
 // The sums are an array, which cannot hold vectors of a length unknown to the compiler.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)

@@ -1,12 +1,32 @@
 #pragma once
-// Rows of numbers for the kernels: one row per character.
+// Numbers for the kernels: aligned, and in rows, one row per character.
 
 #include <cassert>
 #include <cstddef>
+#include <new>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 namespace panache {
+
+inline constexpr size_t kCacheLine = 64;  // Bytes; also the longest vector of any instruction set.
+
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  LineAllocator() = default;
+  template <class U>
+  LineAllocator(const LineAllocator<U>&) {}
+  T* allocate(size_t count) {
+    return static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t(kCacheLine)));
+  }
+  void deallocate(T* array, size_t) { ::operator delete(array, std::align_val_t(kCacheLine)); }
+  friend bool operator==(LineAllocator, LineAllocator) { return true; }
+};
+
+template <class T>
+using AlignedVector = std::vector<T, LineAllocator<T>>;
 
 // `count` rows; row r starts at first + r * stride. Kernels take them by reference: copies are read
 // in larger pieces than they were written in, which stalls the processor.

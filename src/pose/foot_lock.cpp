@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/easing.h"
 #include "base/elementary.h"
-#include "base/one_pole.h"
 #include "pose/changed_joints.h"
 #include "pose/limb.h"
 #include "pose/two_bone.h"

@@ -1,6 +1,6 @@
 #include "pose/hand_contacts.h"
 
-#include "base/smooth_step.h"
+#include "base/easing.h"
 
 namespace panache {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "base/one_of.h"
+#include "base/names.h"
 
 // The table. A recipe called NAME is a folder of that name which defines NAME_recipe(), and one
 // line here.

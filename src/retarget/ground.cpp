@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "base/smooth_step.h"
+#include "base/easing.h"
 #include "base/elementary.h"
 #include "pose/changed_joints.h"
 #include "pose/two_bone.h"

@@ -2,23 +2,67 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "base/elementary.h"
 #include "clip/clip.h"
-#include "pose/contacts.h"
 #include "pose/changed_joints.h"
+#include "pose/contacts.h"
 #include "pose/hand_contacts.h"
 #include "retarget/further_joints.h"
 #include "retarget/ground.h"
 #include "retarget/reference_pose.h"
-#include "retarget/root_joint.h"
 #include "retarget/same_skeleton.h"
+#include "rig/file_space.h"
+#include "rig/joint_name.h"
 #include "rig/posed_rig.h"
+#include "rig/rig.h"
 
 namespace panache {
 namespace {
+
+// The joints in the world, file axes and units.
+struct Placed {
+  std::vector<Quat> rotations;
+  std::vector<Vec3> positions;
+
+  Placed(const Skeleton& skeleton, ConstPose pose)
+      : rotations(skeleton.joints.size()), positions(skeleton.joints.size()) {
+    world_pose(skeleton, pose, {rotations, positions});
+  }
+};
+
+Vec3 up_of(const Rig& rig) {
+  return rotate(conjugate(turn_up(rig.up_axis()).value_or(Quat{})), Vec3{0, 1, 0});
+}
+
+Vec3 along_ground(Vec3 way, Vec3 up) { return way - up * dot(way, up); }
+
+// The character's root joint: above its hips, named so or with vertices of its own, on the floor
+// below them at rest; -1 if it has none.
+int find_root_joint(const Clip& character, const Rig& rig) {
+  const std::vector<Joint>& joints = character.skeleton.joints;
+  const int hips = rig.joints()[index(HumanJoint::hips)];
+  if (hips < 0 || !joints[hips].can_translate) return -1;
+  const Placed rest(character.skeleton, rig.rest().pose(0));
+  const Vec3 up = up_of(rig);
+  const auto at = [&](HumanJoint joint) {
+    const int found = rig.joints()[index(joint)];
+    return found < 0 ? Vec3{} : rest.positions[found];
+  };
+  const float leg = length(at(HumanJoint::left_upper_leg) - at(HumanJoint::left_foot));
+  int found = -1;
+  for (int j = joints[hips].parent; j >= 0; j = joints[j].parent) {
+    const bool is_root = joints[j].skin >= 0 || parse_joint_name(joints[j].name).has("root");
+    const Vec3 to_hips = rest.positions[hips] - rest.positions[j];
+    const bool on_floor =
+        dot(to_hips, up) > 0.5f * leg && length(along_ground(to_hips, up)) < 0.3f * leg;
+    if (is_root && on_floor && joints[j].can_translate) found = j;
+  }
+  return found;
+}
 
 using enum HumanJoint;
 
@@ -280,6 +324,25 @@ Result<Retargeted> retarget(const Clip& motion, const Rig& rig, const Clip& char
         "channels at one of them"};
   }
   return Retargeter(motion, rig, character, onto, options).run();
+}
+
+Result<std::pair<Clip, Rig>> find_body(Clip rest, const Clip* motion, const RigOptions& options) {
+  Result<Rig> at_rest = Rig::create(rest, options);
+  bool on_floor = false;
+  if (at_rest && motion) {
+    // A rest pose in the air, as in BVH files, does not define the floor.
+    const ReferencePose standing = find_reference_pose(rest, *at_rest);
+    on_floor = standing.from_rest && std::abs(at_rest->floor()) < 0.25f * standing.leg;
+  }
+  if (!motion || on_floor) {
+    if (!at_rest) return at_rest.error();
+    return std::pair{std::move(rest), *std::move(at_rest)};
+  }
+  Clip body = *motion;
+  body.skeleton = std::move(rest.skeleton);
+  Result<Rig> rig = Rig::create(body, options);
+  if (!rig) return rig.error();
+  return std::pair{std::move(body), *std::move(rig)};
 }
 
 }  // namespace panache

@@ -1,6 +1,7 @@
 #pragma once
 // Retargets a motion to another character with its rest pose, proportions, units and axes.
 
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -33,5 +34,9 @@ struct Retargeted {
 // above them can move.
 Result<Retargeted> retarget(const Clip& motion, const Rig& rig, const Clip& character,
                             const Rig& onto, const RetargetOptions& options = {});
+
+// The clip for retarget()'s `character`, and its rig: the rest pose if it stands on the floor, else
+// the first motion on the joints of `rest`. `motion` may be null.
+Result<std::pair<Clip, Rig>> find_body(Clip rest, const Clip* motion, const RigOptions& options);
 
 }  // namespace panache

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "rig/up_axis.h"
+#include "rig/file_space.h"
 
 namespace panache {
 namespace {

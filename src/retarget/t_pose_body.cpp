@@ -1,4 +1,4 @@
-#include "retarget/t_pose_body.h"
+#include "retarget/reference_pose.h"
 
 #include <array>
 #include <string>

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/easing.h"
 #include "base/elementary.h"
 #include "base/quat.h"
-#include "base/smooth_step.h"
 
 namespace panache {
 namespace {

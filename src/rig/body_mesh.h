@@ -1,11 +1,14 @@
 #pragma once
-// A human body as one skinned mesh, in the proportions of a rig.
+// A human body as one skinned mesh, in the proportions of a rig, and skinned to the joints of
+// its skeleton for files.
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "clip/skinned_body.h"
 #include "rig/body_surface.h"
+#include "rig/rig.h"
 
 namespace panache {
 
@@ -27,5 +30,12 @@ enum class BodyDetail { fine, coarse };
 // `offsets`: see bind_pose(); `movers`: for each joint, the joint that moves its part of the body.
 BodyMesh make_body_mesh(const HumanPositions& offsets, const std::array<int, kHumanJoints>& movers,
                         BodyDetail detail = BodyDetail::fine);
+
+// The joint that moves each human joint's part of the body: itself, or the nearest ancestor that
+// the rig has.
+std::array<int, kHumanJoints> moving_joints(const Rig& rig);
+
+// A body in the proportions of `rig`, scaled by Rig::unit(). `reference`: a pose without twists.
+SkinnedBody make_rig_body(const Rig& rig, ConstPose reference);
 
 }  // namespace panache

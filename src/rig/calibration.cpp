@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "clip/clip.h"
-#include "rig/first_frame.h"
+#include "rig/file_space.h"
 #include "rig/sampled_joints.h"
-#include "rig/up_axis.h"
 
 namespace panache {
 namespace {

@@ -58,4 +58,7 @@ struct MappedJoints {
 MappedJoints mapped_joints(ConstPose world, const std::array<int, kHumanJoints>& joint_of,
                            const Calibration& calibration) noexcept;
 
+// 0, or 1 if frame 0 is a calibration pose, with a note added to `notes`.
+int find_first_frame(const Clip& clip, std::vector<std::string>& notes);
+
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// Detects mappings that would tear a mesh or are not human. Private to the folder.
+// Detects mappings that would tear a mesh or are not a person's. Private to the folder.
 
 #include <optional>
 #include <span>
@@ -24,5 +24,13 @@ std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping
 // person still has an upright rest pose. `known` hips override this check.
 std::optional<Error> find_animal(const Skeleton& skeleton, std::span<const JointPositions> poses,
                                  const Mapping& mapping, const KnownJoints& known);
+
+// Why a mapping is not a person's: its limbs are named as an animal's, all leave the body at one
+// place, more pairs of them stand beside the body, or at rest and in the motion the hands are on
+// the ground, or the legs bent without names that tell a person. `poses`: the rest pose, then poses
+// of the motion. A map, of the hips or others, overrides this check.
+std::optional<Error> find_other_creature(const Skeleton& skeleton,
+                                         std::span<const JointPositions> poses,
+                                         const Mapping& mapping, const KnownJoints& known);
 
 }  // namespace panache

@@ -1,14 +1,33 @@
 #pragma once
-// The persons in a skeleton: files of scenes hold several, often with the same joint names.
+// The persons in a skeleton: files of scenes hold several, often with the same joint names. Each
+// is some of its joints, as a skeleton of its own for the mapping.
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "clip/clip.h"
-#include "rig/joint_subset.h"
+#include "rig/joint_tree.h"
+#include "rig/mapping.h"
 
 namespace panache {
+
+// parents[joints]: each joint's parent in the subset, of any index, without cycles; joints for
+// which `taken` is 0 are left out, and their children hang on the nearest joint above that is not.
+struct JointSubset {
+  JointSubset(const Skeleton& skeleton, std::span<const int> parents, std::span<const char> taken);
+
+  bool has(int joint) const;  // An index in the whole skeleton.
+  // The same joints of whole poses.
+  std::vector<JointPositions> poses_of(std::span<const JointPositions> whole) const;
+  // map_humanoid() for the subset, in indices of the whole skeleton. Joints that are `known`
+  // outside the subset are rejected.
+  Result<Mapping> map(std::span<const JointPositions> whole, const KnownJoints& known) const;
+
+  Skeleton skeleton;
+  std::vector<int> original;  // [joints of the subset]: index in the whole skeleton.
+};
 
 struct Figure {
   int root = 0;        // Its topmost joint that no other figure is below.

@@ -1,4 +1,4 @@
-#include "rig/first_frame.h"
+#include "rig/calibration.h"
 
 #include <algorithm>
 #include <cmath>

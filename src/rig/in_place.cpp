@@ -1,9 +1,9 @@
-#include "rig/in_place.h"
+#include "rig/body_motions.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "rig/up_axis.h"
+#include "rig/file_space.h"
 
 namespace panache {
 namespace {

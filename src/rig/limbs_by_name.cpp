@@ -1,9 +1,9 @@
-#include "rig/limbs_by_name.h"
+#include "rig/limbs.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "rig/joint_words.h"
+#include "rig/joint_name.h"
 
 namespace panache {
 namespace {

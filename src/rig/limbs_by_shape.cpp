@@ -1,4 +1,4 @@
-#include "rig/limbs_by_shape.h"
+#include "rig/limbs.h"
 
 #include <algorithm>
 #include <cmath>

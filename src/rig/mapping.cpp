@@ -4,10 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "rig/joint_words.h"
-#include "rig/limb_shape.h"
-#include "rig/limbs_by_name.h"
-#include "rig/limbs_by_shape.h"
+#include "rig/joint_name.h"
+#include "rig/limbs.h"
 #include "rig/name_preferences.h"
 
 namespace panache {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "rig/limbs_by_name.h"
-#include "rig/joint_words.h"
+#include "rig/joint_name.h"
+#include "rig/limbs.h"
 
 namespace panache {
 

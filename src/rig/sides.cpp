@@ -1,4 +1,4 @@
-#include "rig/sides.h"
+#include "rig/mapping.h"
 
 #include <algorithm>
 #include <array>

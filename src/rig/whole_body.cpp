@@ -5,8 +5,7 @@
 
 #include "rig/humanoid.h"
 #include "rig/joint_name.h"
-#include "rig/joint_words.h"
-#include "rig/limbs_by_name.h"
+#include "rig/limbs.h"
 #include "rig/sampled_joints.h"
 
 namespace panache {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/smooth_step.h"
+#include "base/easing.h"
 #include "pose/contacts.h"
 
 namespace panache {

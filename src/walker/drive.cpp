@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/smooth_step.h"
+#include "base/easing.h"
 
 namespace panache {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/smooth_step.h"
+#include "base/easing.h"
 #include "pose/two_bone.h"
 
 namespace panache {

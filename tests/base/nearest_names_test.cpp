@@ -1,4 +1,4 @@
-#include "base/nearest_names.h"
+#include "base/names.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "cli/program.h"
 #include "make_learnt.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 
 namespace panache::test {
 namespace {

@@ -1,6 +1,6 @@
 // Deforming joints in pieces, as control rigs export them, made into one tree and brought back.
 
-#include "clip/deform_skeleton.h"
+#include "clip/deform_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "gltf_checks.h"
 #include "make_clip.h"
-#include "rig/rig_body.h"
+#include "rig/body_mesh.h"
 
 namespace panache {
 namespace {

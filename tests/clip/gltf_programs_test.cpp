@@ -5,7 +5,7 @@
 
 #include "gltf_checks.h"
 #include "make_clip.h"
-#include "rig/rig_body.h"
+#include "rig/body_mesh.h"
 #include "temporary_folder.h"
 
 namespace panache {

@@ -1,9 +1,8 @@
-#include "clip/rest_axes.h"
+#include "clip/clip.h"
 
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "clip/clip.h"
 
 namespace panache {
 namespace {

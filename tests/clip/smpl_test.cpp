@@ -6,7 +6,6 @@
 
 #include "clip/clip.h"
 #include "clip/npy.h"
-#include "clip/smpl_skeleton.h"
 #include "fixtures.h"
 
 namespace panache {

@@ -18,7 +18,7 @@
 #include "learn/style_file.h"
 #include "make_clip.h"
 #include "make_model.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "net/safetensors.h"
 #ifdef PANACHE_NPZ
 #include <zip.h>

@@ -2,7 +2,7 @@
 
 #include "framed_json.h"
 #include "learn/style_file.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "style/networks/networks.h"
 #include "use_motion.h"
 

@@ -1,4 +1,4 @@
-#include "learn/pose_error.h"
+#include "learn/take.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "base/file.h"
 #include "make_learnt.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "style/networks/networks.h"
 
 namespace panache {

@@ -1,4 +1,4 @@
-#include "learn/thumbnail.h"
+#include "learn/style_file.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "net/dense.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 
 namespace panache {
 namespace {

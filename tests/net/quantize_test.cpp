@@ -1,4 +1,4 @@
-#include "net/quantize.h"
+#include "net/layer.h"
 
 #include <array>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "retarget/on_characters.h"
-#include "retarget/t_pose_body.h"
+#include "retarget/reference_pose.h"
 
 namespace panache {
 namespace {

@@ -6,10 +6,9 @@
 
 #include "clip/clip.h"
 #include "clip/motion_file.h"
-#include "retarget/find_body.h"
 #include "retarget/ground.h"
 #include "retarget/on_characters.h"
-#include "retarget/t_pose_body.h"
+#include "retarget/reference_pose.h"
 
 namespace panache {
 namespace {

@@ -10,7 +10,6 @@
 #include "make_clip.h"
 #include "rig/canonical_skeleton.h"
 #include "rig/mannequin.h"
-#include "rig/rig_body.h"
 
 namespace panache {
 namespace {

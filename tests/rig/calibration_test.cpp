@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "rig/file_space.h"
 #include "rig/made_up.h"
 #include "rig/posed_rig.h"
-#include "rig/up_axis.h"
 
 namespace panache {
 namespace {

@@ -1,4 +1,4 @@
-#include "rig/usual_unit.h"
+#include "rig/file_space.h"
 
 #include <gtest/gtest.h>
 

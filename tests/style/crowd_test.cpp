@@ -11,7 +11,7 @@
 #include "allocations.h"
 #include "make_clip.h"
 #include "make_model.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 
 namespace panache {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "make_learnt.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "read_model.h"
 #include "style/networks/networks.h"
 

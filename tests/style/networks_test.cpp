@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "make_model.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "style/networks/networks.h"
 
 namespace panache {

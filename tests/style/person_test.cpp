@@ -10,7 +10,7 @@
 #include "allocations.h"
 #include "make_clip.h"
 #include "make_persons.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "read_model.h"
 #include "style/restyle.h"
 #include "style/stylizer.h"

@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "clip/motion_file.h"
 #include "make_clip.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "style/restyle.h"
 #include "walker/walker.h"
 

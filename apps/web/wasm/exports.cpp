@@ -17,7 +17,6 @@
 #include "learn/style_file.h"
 #include "player.h"
 #include "pose/motion_notes.h"
-#include "retarget/find_body.h"
 #include "retarget/retarget.h"
 #include "rig/body_motions.h"
 #include "style/model/side.h"

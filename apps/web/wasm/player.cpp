@@ -4,12 +4,12 @@
 #include <cstddef>
 
 #include "clip/bvh.h"
+#include "clip/clip.h"
 #include "clip/gltf.h"
-#include "clip/rest_axes.h"
+#include "retarget/reference_pose.h"
 #include "retarget/retarget.h"
-#include "retarget/t_pose_body.h"
-#include "rig/rig_body.h"
-#include "rig/up_axis.h"
+#include "rig/body_mesh.h"
+#include "rig/file_space.h"
 #include "style/model/side.h"
 #include "style/play/removal.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/csv.h"
-#include "base/one_of.h"
+#include "base/names.h"
 #include "base/parallel.h"
 #include "eval/motion_metrics.h"
 

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "base/between.h"
+#include "base/easing.h"
 #include "eval/motion_metrics.h"
 
 namespace panache {

@@ -3,9 +3,7 @@
 #include <algorithm>
 
 #include "base/file.h"
-#include "base/lower_case.h"
-#include "base/nearest_names.h"
-#include "base/one_of.h"
+#include "base/names.h"
 #include "pose/features.h"
 #include "recipes/recipes.h"
 #include "rig/humanoid.h"

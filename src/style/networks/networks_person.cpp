@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/one_pole.h"
+#include "base/easing.h"
 #include "style/networks/networks_scratch.h"
 
 namespace panache {

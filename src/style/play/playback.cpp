@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "base/one_pole.h"
+#include "base/easing.h"
 #include "pose/pose_distance.h"
 #include "style/play/input_ring.h"
 #include "style/stages/pose_change.h"

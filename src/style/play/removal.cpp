@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/between.h"
+#include "base/easing.h"
 #include "style/model/model.h"
 
 namespace panache {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/smooth_step.h"
+#include "base/easing.h"
 #include "pose/changed_joints.h"
 #include "pose/limb.h"
 #include "pose/two_bone.h"

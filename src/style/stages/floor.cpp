@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/one_pole.h"
+#include "base/easing.h"
 #include "pose/changed_joints.h"
 #include "pose/contacts.h"
 

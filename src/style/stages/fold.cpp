@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/smooth_step.h"
+#include "base/easing.h"
 #include "pose/changed_joints.h"
 #include "style/stages/balance.h"
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/one_pole.h"
-#include "base/smooth_step.h"
+#include "base/easing.h"
 #include "pose/changed_joints.h"
 #include "pose/limb.h"
 #include "pose/two_bone.h"

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/easing.h"
 #include "base/elementary.h"
-#include "pose/limb.h"
 #include "pose/changed_joints.h"
-#include "base/smooth_step.h"
+#include "pose/limb.h"
 
 namespace panache {
 namespace {

@@ -5,8 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/one_pole.h"
-#include "base/smooth_step.h"
+#include "base/easing.h"
 #include "pose/limb.h"
 #include "pose/two_bone.h"
 #include "style/stages/step_time.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/easing.h"
 #include "base/elementary.h"
-#include "base/smooth_step.h"
 #include "pose/limb.h"
 #include "pose/two_bone.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/one_pole.h"
+#include "base/easing.h"
 #include "rig/humanoid.h"
 
 namespace panache {

@@ -6,15 +6,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/int8_layer.h"
 #include "bench/measure.h"
 #include "bench/motions.h"
 #include "bench/networks.h"
+#include "bench/int8_layer.h"
 #include "bench/onnx_file.h"
 #include "bench/published.h"
 #include "lab_program.h"
 #include "net/dense.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 #include "rig/posed_rig.h"
 
 namespace panache::test {

@@ -1,7 +1,7 @@
 // panache-lab export: models as ONNX. What the files compute is tests/onnx.
 
 #include "lab_program.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 
 namespace panache::test {
 namespace {

@@ -1,7 +1,7 @@
 // panache-lab quantize: int8 models.
 
 #include "lab_program.h"
-#include "net/quantize.h"
+#include "net/layer.h"
 
 namespace panache::test {
 namespace {

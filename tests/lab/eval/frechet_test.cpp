@@ -1,4 +1,4 @@
-#include "eval/frechet.h"
+#include "eval/evaluator.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "eval/warped_distance.h"
+#include "eval/performer_judges.h"
 
 #include <algorithm>
 

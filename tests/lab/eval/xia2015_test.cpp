@@ -7,8 +7,8 @@
 #include "base/random.h"
 #include "eval/make_swings.h"
 #include "known_recipes.h"
-#include "learn/pose_error.h"
 #include "learn/samples.h"
+#include "learn/take.h"
 
 namespace panache {
 namespace {

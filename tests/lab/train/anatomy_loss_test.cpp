@@ -1,4 +1,4 @@
-#include "train/anatomy_loss.h"
+#include "train/styled_bodies.h"
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 #include "body_tensor.h"
 #include "make_styled_takes.h"
 #include "posed_body.h"
-#include "rig/range_of_motion.h"
+#include "rig/beyond_range.h"
 
 namespace panache {
 namespace {

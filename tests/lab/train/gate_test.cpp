@@ -1,4 +1,4 @@
-#include "train/gate.h"
+#include "train/fit_heads.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "train/position_loss.h"
+#include "train/styled_bodies.h"
 
 #include <cmath>
 
@@ -7,7 +7,6 @@
 #include "known_recipes.h"
 #include "make_styled_takes.h"
 #include "train/matrix_products.h"
-#include "train/styled_bodies.h"
 
 namespace panache {
 namespace {

@@ -1,4 +1,4 @@
-#include "train/standing_loss.h"
+#include "train/styled_bodies.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,9 @@
-#include "base/nearest_names.h"
+#include "base/names.h"
 
 #include <algorithm>
 #include <array>
 #include <numeric>
 #include <utility>
-
-#include "base/lower_case.h"
-#include "base/one_of.h"
 
 namespace panache {
 namespace {

@@ -1,4 +1,4 @@
-#include "rig/usual_unit.h"
+#include "rig/file_space.h"
 
 #include <array>
 #include <cmath>
@@ -22,6 +22,17 @@ std::optional<UsualUnit> usual_unit(double metres) {
   for (const UsualUnit& unit : kUnits) {
     if (std::abs(std::log(metres / unit.metres)) < std::log(1.35)) return unit;
   }
+  return std::nullopt;
+}
+
+std::optional<Quat> turn_up(std::string_view axis) {
+  const float half = std::sqrt(0.5f);
+  if (axis == "+X") return Quat{0, 0, half, half};
+  if (axis == "-X") return Quat{0, 0, -half, half};
+  if (axis == "+Y") return Quat{};
+  if (axis == "-Y") return Quat{1, 0, 0, 0};
+  if (axis == "+Z") return Quat{-half, 0, 0, half};
+  if (axis == "-Z") return Quat{half, 0, 0, half};
   return std::nullopt;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Text from files and file systems, which may contain any bytes.
+// Text from files and file systems, which may contain any bytes: made well-formed, and escaped
+// for XML and HTML.
 
 #include <cstddef>
 #include <string>
@@ -15,5 +16,9 @@ size_t utf8_length(std::string_view text) noexcept;
 
 // `text` with each byte outside well-formed characters replaced by U+FFFD.
 std::string to_utf8(std::string_view text);
+
+// Any UTF-8 `text`, escaped for use between tags and in double quotes: special characters become
+// entities, and characters that XML does not allow become U+FFFD.
+std::string xml_escaped(std::string_view text);
 
 }  // namespace panache
