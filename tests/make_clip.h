@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "clip/clip.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "rig/humanoid.h"
 
 namespace panache::test {

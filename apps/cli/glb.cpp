@@ -11,7 +11,6 @@
 #include "base/little_endian.h"
 #include "base/text.h"
 #include "clip/gltf_json.h"
-#include "clip/gltf_uri.h"
 #include "clip/text_cursor.h"
 
 namespace panache::cli {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "clip/clip.h"
-#include "rig/mannequin.h"
+#include "rig/posed_rig.h"
 
 namespace panache::cli {
 

@@ -13,7 +13,7 @@
 
 #include "input.h"
 #include "messages.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "rig/posed_rig.h"
 #include "rig_options.h"
 #include "stop_signal.h"

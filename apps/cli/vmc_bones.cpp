@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache::cli {
 namespace {

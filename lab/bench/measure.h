@@ -77,6 +77,7 @@ struct Timing {
 std::vector<Timing> race(std::span<const Contestant> contestants, int rounds,
                          const ProgressCall& progress = {});
 
+// The peak performance of the machine with its widest registers, to compare network speed with.
 struct Limits {
   std::string processor;    // Name given by the system.
   double memory_gb_s = 0;   // Reading far more memory than any cache holds.

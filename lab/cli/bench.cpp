@@ -6,7 +6,6 @@
 
 #include "base/progress.h"
 #include "bench/run.h"
-#include "bench_report.h"
 #include "bench_systems.h"
 #include "messages.h"
 #include "model_path.h"

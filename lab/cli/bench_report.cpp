@@ -1,4 +1,4 @@
-#include "bench_report.h"
+#include "bench_systems.h"
 
 #include <algorithm>
 

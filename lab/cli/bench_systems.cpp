@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "eval/systems/model_system.h"
-#include "eval/systems/published.h"
+#include "eval/systems/table.h"
 #include "manifests.h"
 #include "train/training_data.h"
 

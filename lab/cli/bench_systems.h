@@ -1,12 +1,15 @@
 #pragma once
-// Builds and times the systems of other papers for panache-lab bench.
+// Builds and times the systems of other papers for panache-lab bench, and reports its times as
+// JSON and as text (bench_report.cpp).
 
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "bench/run.h"
 #include "eval/system.h"
+#include "messages.h"
 
 namespace panache::cli {
 
@@ -28,5 +31,13 @@ struct BuiltSystems {
 // empty; `model`: path of the model to compare with. Takes minutes.
 Result<BuiltSystems> build_systems(const std::string& manifest, const std::string& styles,
                                    const std::string& model);
+
+// Times in microseconds; null if missing.
+Json to_json(const bench::Measurements& measured, const std::vector<SystemTime>& systems);
+// Tables for a terminal, with what is missing and how to get it.
+std::string describe(const bench::Measurements& measured, const std::vector<SystemTime>& systems);
+
+// The number of characters that can be stepped in 1/60 s.
+int characters_at_60hz(const bench::CrowdTime& crowd);
 
 }  // namespace panache::cli

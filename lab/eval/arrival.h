@@ -84,7 +84,8 @@ const ArrivedShares& made_shares(const StyleArrival& style) {
   return style.made[static_cast<size_t>(walks)];
 }
 
-// Straight walks at a slow, a usual and a brisk speed; `walker_model`: a file.
+// Inputs of the program's own walker: straight walks at a slow, a usual and a brisk speed;
+// `walker_model`: a file.
 Result<std::vector<TestInput>> walker_walks(const std::string& walker_model);
 
 }  // namespace panache

@@ -8,7 +8,7 @@
 #include "learn/samples.h"
 #include "learn/style_file.h"
 #include "learn/take.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "style/networks/networks.h"
 
 namespace panache {

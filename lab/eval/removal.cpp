@@ -8,7 +8,7 @@
 #include "eval/motion_metrics.h"
 #include "eval/ood.h"
 #include "eval/report_numbers.h"
-#include "eval/systems/styled_clip.h"
+#include "eval/system.h"
 #include "learn/recognise.h"
 #include "style/play/removal.h"
 

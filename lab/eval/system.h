@@ -13,6 +13,7 @@
 #include "eval/test_input.h"
 #include "learn/take.h"
 #include "style/model/model.h"
+#include "style/restyle.h"
 
 namespace panache {
 
@@ -96,5 +97,8 @@ class System {
 // The inputs themselves as outputs for each style.
 std::vector<StyledTake> untouched(const std::vector<TestInput>& inputs,
                                   const std::vector<std::string>& styles);
+
+// The output of restyle(), for evaluation.
+RunResult styled_result(const TestInput& input, const std::string& style, const Restyled& output);
 
 }  // namespace panache

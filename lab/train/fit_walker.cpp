@@ -8,7 +8,7 @@
 #include "base/quat.h"
 #include "learn/ridge.h"
 #include "learn/take.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "train/gait_take.h"
 
 namespace panache {

@@ -7,7 +7,7 @@
 
 #include "base/quat.h"
 #include "learn/ridge.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache {
 namespace {

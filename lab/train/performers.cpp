@@ -1,4 +1,4 @@
-#include "train/performers.h"
+#include "train/training_data.h"
 
 #include <algorithm>
 #include <array>

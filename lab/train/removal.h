@@ -30,6 +30,7 @@ int take_with_style(const std::vector<Take>& takes, const Sample& sample);
 Result<void> prepare_removal(const Model& model, const std::vector<ManifestRow>& unlabelled,
                              uint64_t seed, TrainingData& data);
 
+// Style recognition of a remover: a linear layer on statistics of its trunk.
 // Adds the tensors of Model::Recognition to a model file. The classes are the styles of the model
 // and neutral, named as in the rows of the takes. Fails if the file is not a model.
 Result<void> add_recognition(const std::vector<Take>& takes, uint64_t seed, TensorFile& file);

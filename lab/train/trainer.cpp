@@ -16,10 +16,10 @@
 #include "train/fingerprint.h"
 #include "train/fit_heads.h"
 #include "train/guidance.h"
-#include "train/performers.h"
 #include "train/removal.h"
 #include "train/styled_bodies.h"
 #include "train/train_predictor.h"
+#include "train/training_data.h"
 
 namespace panache {
 namespace {

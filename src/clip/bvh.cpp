@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "clip/bvh_document.h"
-#include "clip/decimal.h"
 #include "clip/euler.h"
+#include "clip/text_cursor.h"
 
 namespace panache {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "clip/bvh.h"
 #include "clip/bvh_document.h"
-#include "clip/decimal.h"
 #include "clip/text_cursor.h"
 
 namespace panache {

@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "clip/bvh_document.h"
-#include "clip/decimal.h"
 #include "clip/text_cursor.h"
 
 namespace panache {

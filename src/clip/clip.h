@@ -93,9 +93,10 @@ void mark_still_joints(Clip& clip);
 // nothing.
 void sample(const Clip& clip, double frame, Pose out);
 
-// `clip` with the local axes of every joint rotated so that the rest pose has no rotations. The
-// positions of joints and ends are unchanged in the rest pose and in every frame, in the space of
-// the roots' parent; offsets, ends and rotations are expressed in the new axes.
+// The same motion as BVH requires it: `clip` with the local axes of every joint rotated so that the
+// rest pose has no rotations. The positions of joints and ends are unchanged in the rest pose and
+// in every frame, in the space of the roots' parent; offsets, ends and rotations are expressed in
+// the new axes.
 Clip in_rest_axes(const Clip& clip);
 
 }  // namespace panache

@@ -11,7 +11,6 @@
 
 #include "base/inflate.h"
 #include "base/little_endian.h"
-#include "clip/decimal.h"
 #include "clip/text_cursor.h"
 
 namespace panache {

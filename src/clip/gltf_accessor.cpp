@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/little_endian.h"
-#include "clip/decimal.h"
+#include "clip/text_cursor.h"
 
 namespace panache {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "clip/decimal.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_scales.h"
+#include "clip/text_cursor.h"
 
 namespace panache {
 namespace {

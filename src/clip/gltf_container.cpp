@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/little_endian.h"
-#include "clip/gltf_uri.h"
+#include "clip/gltf_json.h"
 
 namespace panache {
 namespace {

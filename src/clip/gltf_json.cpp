@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "clip/decimal.h"
+#include "clip/text_cursor.h"
 
 namespace panache {
 namespace {

@@ -1,15 +1,15 @@
 #pragma once
-// The JSON of a glTF file, with every type and index checked on reading. For the readers in this
-// folder and in the program.
+// The JSON of a glTF file, with every type and index checked on reading, and the addresses of
+// data in it: data URIs and relative files (gltf_uri.cpp). For the readers in this folder and in
+// the program.
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "base/result.h"
 
@@ -91,5 +91,15 @@ class GltfPart {
 std::string member_path(const std::string& path, const std::string& key);
 // "PATH[INDEX]".
 std::string item_path(const std::string& path, size_t index);
+
+bool is_data_uri(std::string_view uri);
+// Decodes a data URI; error messages have no name in front.
+Result<std::string> decode_data_uri(std::string_view uri);
+// "data:TYPE;base64,...".
+std::string make_data_uri(std::string_view type, std::string_view bytes);
+
+// The path of the file that the relative `uri` refers to from a file at `path`. References outside
+// that file's folder are rejected, with a message without a name.
+Result<std::string> resolve_uri(std::string_view uri, const std::string& path);
 
 }  // namespace panache

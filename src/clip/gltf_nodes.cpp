@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "clip/decimal.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_scales.h"
+#include "clip/text_cursor.h"
 
 namespace panache {
 namespace {

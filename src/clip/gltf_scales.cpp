@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "clip/decimal.h"
+#include "clip/text_cursor.h"
 
 namespace panache {
 namespace {

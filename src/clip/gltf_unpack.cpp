@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "clip/gltf_uri.h"
+#include "clip/gltf_json.h"
 #include "clip/meshopt.h"
 
 namespace panache {

@@ -1,4 +1,4 @@
-#include "clip/gltf_uri.h"
+#include "clip/gltf_json.h"
 
 #include <array>
 #include <cstdint>

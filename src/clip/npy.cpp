@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "base/little_endian.h"
-#include "clip/decimal.h"
 #include "clip/text_cursor.h"
 
 namespace panache {

@@ -1,5 +1,6 @@
 #pragma once
-// Reads words and numbers from a text, and reports where one of them is wrong.
+// Reads words and numbers from a text, and reports where one of them is wrong; and writes
+// numbers as people do. The same on every machine and in every locale.
 
 #include <cstdint>
 #include <string>
@@ -8,6 +9,20 @@
 #include "base/result.h"
 
 namespace panache {
+
+// Largest magnitude of numbers in files: too small for the solar system in metres or millimetres,
+// and no sum or square of such numbers overflows a float.
+inline constexpr double kLargestNumber = 1e9;
+
+// Appends `value` with exactly `decimals` (0 to 9) digits after the point, without an exponent and
+// never as negative zero. Numbers are clamped to kLargestNumber; NaN is written as 0.
+void append_fixed(std::string& out, double value, int decimals);
+
+// The same as a string.
+std::string with_decimals(double value, int decimals);
+
+// Digits after the point of `number`; 0 if it has an exponent.
+int decimals_of(std::string_view number);
 
 // A position in a text. Words are separated by spaces (space, tab, vertical tab, form feed) and
 // line ends (\n, \r\n, lone \r). Only skip_space() moves to another line.

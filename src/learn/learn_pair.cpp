@@ -1,4 +1,4 @@
-#include "learn/learn_pair.h"
+#include "learn/learn_style.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "clip/decimal.h"
+#include "clip/text_cursor.h"
 #include "learn/cycle.h"
 #include "retarget/retarget.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache {
 namespace {

@@ -7,7 +7,7 @@
 #include "learn/cycle.h"
 #include "learn/ridge.h"
 #include "learn/samples.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "style/networks/networks.h"
 
 namespace panache {

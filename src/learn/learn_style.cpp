@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/parallel.h"
-#include "clip/decimal.h"
+#include "clip/text_cursor.h"
 #include "learn/cycle.h"
 #include "learn/find_gestures.h"
 #include "learn/fit_style.h"

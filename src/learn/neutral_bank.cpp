@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "learn/samples.h"
 #include "rig/canonical_body.h"
-#include "rig/canonical_skeleton.h"
 
 namespace panache {
 namespace {

@@ -12,7 +12,6 @@
 #include "base/names.h"
 #include "base/state_bytes.h"
 #include "base/text.h"
-#include "clip/decimal.h"
 #include "clip/text_cursor.h"
 #include "recipes/recipes.h"
 #include "style/model/side.h"

@@ -68,6 +68,7 @@ Result<TensorFile> remove_style(const TensorFile& model, const std::string& styl
 Result<TensorFile> rename_style(const TensorFile& model, const std::string& from,
                                 const std::string& to, const std::string& name);
 
+// thumbnail.cpp: a picture of a style, small enough to store in its file.
 // A row of stick figures as an SVG file in one line, of less than 6 KB for six figures. `bodies`:
 // in the body frame, metres. The body's right is drawn dark, its left light.
 std::string draw_thumbnail(std::span<const HumanPositions> bodies);

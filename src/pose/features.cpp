@@ -5,7 +5,7 @@
 
 #include "base/quat.h"
 #include "pose/absolute_pose.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache {
 

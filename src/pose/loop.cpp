@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "clip/decimal.h"
+#include "clip/text_cursor.h"
 #include "pose/observer.h"
 #include "pose/pose_distance.h"
 

@@ -9,7 +9,6 @@
 
 #include "pose/contacts.h"
 #include "rig/canonical_body.h"
-#include "rig/canonical_skeleton.h"
 #include "rig/posed_rig.h"
 
 namespace panache {

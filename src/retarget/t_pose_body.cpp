@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "retarget/further_joints.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "rig/posed_rig.h"
 
 namespace panache {

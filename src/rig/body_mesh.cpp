@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "rig/mannequin.h"
+#include "rig/posed_rig.h"
 
 namespace panache {
 namespace {

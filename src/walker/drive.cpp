@@ -27,7 +27,7 @@ constexpr float kGaitChangeSeconds = 0.45f;
 
 constexpr float kSlowestCadence = 0.6f;
 
-float approach(float value, float target, float dt, float seconds) {
+float eased(float value, float target, float dt, float seconds) {
   return value + (target - value) * (1 - std::exp(-dt / seconds));
 }
 
@@ -41,16 +41,16 @@ void Drive::ease(float wanted_speed, float wanted_turn, float dt) noexcept {
   const float max_change = 1.3f + 0.35f * going_.speed;
   const float change =
       std::clamp((wanted_speed - going_.speed) * kSpeedRate, -max_change, max_change);
-  speed_change_ = approach(speed_change_, change, dt, kSpeedLag);
+  speed_change_ = eased(speed_change_, change, dt, kSpeedLag);
   going_.speed += speed_change_ * dt;
   if (going_.speed < 0) going_.speed = speed_change_ = 0;
-  going_.acceleration = approach(going_.acceleration, speed_change_, dt, kLeanLag);
+  going_.acceleration = eased(going_.acceleration, speed_change_, dt, kLeanLag);
 
   const float limit = max_walker_turn(going_.speed);
   const float turn = std::clamp(wanted_turn, -limit, limit);
   const float turn_change =
       std::clamp((turn - going_.turn) * kTurnRate, -kMaxTurnChange, kMaxTurnChange);
-  turn_change_ = approach(turn_change_, turn_change, dt, kTurnLag);
+  turn_change_ = eased(turn_change_, turn_change, dt, kTurnLag);
   going_.turn += turn_change_ * dt;
 }
 
@@ -87,7 +87,7 @@ void Drive::keep_stepping(const WalkerModel& model, bool wanted, bool feet_settl
   } else if (stepping_ && !wanted && !moves && feet_settled) {
     stepping_ = false;
   }
-  stepping_amount_ = approach(stepping_amount_, stepping_ ? 1.0f : 0.0f, dt, 0.15f);
+  stepping_amount_ = eased(stepping_amount_, stepping_ ? 1.0f : 0.0f, dt, 0.15f);
   if (!stepping_) return;
   const float run = smooth_step(running_);
   float wanted_frequency =
@@ -99,7 +99,7 @@ void Drive::keep_stepping(const WalkerModel& model, bool wanted, bool feet_settl
   // Human strides vary in duration; these differ by about a percent.
   const auto t = static_cast<float>(std::fmod(seconds_, 1e4));
   wanted_frequency *= 1 + 0.007f * std::sin(1.9f * t) + 0.006f * std::sin(0.83f * t + 1);
-  frequency_ = approach(frequency_, wanted_frequency, dt, 0.1f);
+  frequency_ = eased(frequency_, wanted_frequency, dt, 0.1f);
   phase_ = std::fmod(phase_ + kTurn * frequency_ * dt, double(kTurn));
 }
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/quat.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/gravity.h"
 #include "pose/contacts.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache {
 namespace {

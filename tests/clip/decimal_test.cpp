@@ -1,4 +1,4 @@
-#include "clip/decimal.h"
+#include "clip/text_cursor.h"
 
 #include <cmath>
 #include <cstdio>

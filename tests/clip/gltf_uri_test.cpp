@@ -1,6 +1,6 @@
 // Data inside of addresses.
 
-#include "clip/gltf_uri.h"
+#include "clip/gltf_json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
-#include "learn/learn_pair.h"
+#include "learn/learn_style.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "learn/learn_style.h"
 #include "make_walks.h"
 
 namespace panache {

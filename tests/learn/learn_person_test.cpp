@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "make_model.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "style/restyle.h"
 #include "walker/walker.h"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/quat.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache {
 namespace {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "make_clip.h"
-#include "rig/canonical_skeleton.h"
-#include "rig/mannequin.h"
+#include "rig/canonical_body.h"
+#include "rig/posed_rig.h"
 
 namespace panache {
 namespace {

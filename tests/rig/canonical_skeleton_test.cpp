@@ -1,4 +1,4 @@
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 #include <gtest/gtest.h>
 

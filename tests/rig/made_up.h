@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "clip/clip.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "rig/humanoid.h"
 
 namespace panache::test {

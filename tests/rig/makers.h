@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "rig/made_up.h"
 
 namespace panache::test {

@@ -1,4 +1,4 @@
-#include "rig/mannequin.h"
+#include "rig/posed_rig.h"
 
 #include <cmath>
 

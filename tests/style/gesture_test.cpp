@@ -10,7 +10,7 @@
 #include "make_clip.h"
 #include "make_jump.h"
 #include "make_model.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "rig/posed_rig.h"
 #include "style/restyle.h"
 #include "walker/walker.h"

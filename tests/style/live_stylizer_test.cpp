@@ -11,7 +11,7 @@
 #include "base/random.h"
 #include "make_clip.h"
 #include "make_model.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "walker/walker.h"
 
 namespace panache {

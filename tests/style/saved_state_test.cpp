@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "style/live_stylizer.h"
 #include "walker/walker.h"
 

@@ -12,7 +12,7 @@
 #include "clip/clip.h"
 #include "count_allocations.h"
 #include "pose/contacts.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "rig/rig.h"
 #include "walker/feet.h"
 #include "walker/made_up_gait.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/elementary.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 #include "style/stylizer.h"
 
 namespace panache::web {

@@ -9,7 +9,7 @@
 
 #include "recording.h"
 #include "rig/body_mesh.h"
-#include "rig/mannequin.h"
+#include "rig/posed_rig.h"
 #include "source.h"
 #include "style/play/removal.h"
 #include "style/restyle.h"

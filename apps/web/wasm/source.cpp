@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache::web {
 

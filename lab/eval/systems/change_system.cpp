@@ -6,7 +6,7 @@
 #include <ctime>
 #include <map>
 
-#include "eval/systems/styled_clip.h"
+#include "eval/system.h"
 #include "learn/samples.h"
 #include "pose/loop.h"
 #include "style/play/play_clip.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <ctime>
 
-#include "eval/systems/styled_clip.h"
+#include "eval/system.h"
 #include "learn/samples.h"
 #include "style/networks/networks.h"
 #include "style/restyle.h"

@@ -1,4 +1,4 @@
-#include "eval/systems/published.h"
+#include "eval/systems/table.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "eval/systems/styled_clip.h"
+#include "eval/system.h"
 
 #include <numeric>
 

@@ -29,4 +29,11 @@ struct SystemEntry {
 // The systems in every report, in its order.
 const std::vector<SystemEntry>& comparison_systems();
 
+// published.cpp: the systems of other papers as we implemented them (docs/comparison-systems.md),
+// in the order of the report. Building and evaluating them takes minutes, so this happens only on
+// request.
+const std::vector<SystemEntry>& published_systems();
+// Those with these names, each once, in that order; "all" means all. Fails if a name is unknown.
+Result<std::vector<SystemEntry>> find_published(const std::vector<std::string>& names);
+
 }  // namespace panache

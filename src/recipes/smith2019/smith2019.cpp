@@ -8,7 +8,7 @@
 #include "pose/absolute_pose.h"
 #include "pose/mirror.h"
 #include "recipes/recipe.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache {
 namespace {

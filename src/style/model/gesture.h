@@ -63,7 +63,7 @@ class Gesture {
   std::string name_;
 };
 
-// Names all gestures of a style, so that no two have the same name; see gesture_name.h.
+// Names all gestures of a style, so that no two have the same name; see distinct_names().
 void name_gestures(std::span<Gesture> gestures);
 
 // How many gestures a second a text says, "0.25"; an empty one says 0.
@@ -73,7 +73,7 @@ Result<float> read_gesture_rate(std::string_view text);
 inline constexpr int kMaxGestures = 16;
 inline constexpr float kMaxGestureRate = 10;
 
-struct GesturePose;
+// gesture_name.cpp: what a gesture does, in words.
 
 // The movements of a gesture with these control points, the largest first: "glances over the left
 // shoulder", "throws both arms up". At least one; small ones are left out.

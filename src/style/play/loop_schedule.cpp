@@ -1,4 +1,4 @@
-#include "style/play/loop_schedule.h"
+#include "style/play/play_clip.h"
 
 #include <algorithm>
 #include <cmath>

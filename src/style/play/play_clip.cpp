@@ -2,16 +2,78 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
+#include "clip/clip.h"
 #include "pose/changed_joints.h"
 #include "pose/close_loop.h"
 #include "pose/loop.h"
 #include "pose/pose_distance.h"
-#include "style/play/clip_stepper.h"
-#include "style/play/loop_schedule.h"
+#include "style/play/flight_lookout.h"
+#include "style/stepper.h"
 
 namespace panache {
 namespace {
+
+// Steps a character through a clip, frame by frame.
+class ClipStepper {
+ public:
+  // Clip and source must outlive it.
+  ClipStepper(const Clip& clip, const Rig& rig, ChangeSource& source,
+              const StylizerOptions& options);
+
+  // Steps to the pose at `frame` (fractional, never before the last one), `advance` frames after
+  // the last one; `seconds`: the clip time given to the source.
+  void step(double frame, double advance, double seconds);
+
+  // Results of the last step.
+  ConstPose pose() const { return {rotations_, translations_}; }
+  const BodyChange& change() const { return stepper_.change(); }
+  double rate() const { return stepper_.rate(); }
+  float flight() const { return flight_; }
+  float gate() const { return gate_; }
+  FootContacts contacts() const;
+  StageFacts stage_facts() const { return stepper_.stage_facts(); }
+
+ private:
+  const Clip& clip_;
+  ChangeSource& source_;
+  Stepper stepper_;
+  FlightLookout lookout_;
+  std::optional<NextPose> next_;  // The second pose.
+  float flight_ = 0, gate_ = 1;
+  std::vector<Quat> rotations_;
+  std::vector<Vec3> translations_;
+};
+
+ClipStepper::ClipStepper(const Clip& clip, const Rig& rig, ChangeSource& source,
+                         const StylizerOptions& options)
+    : clip_(clip),
+      source_(source),
+      stepper_(rig, source.layout(), options),
+      lookout_(clip, rig),
+      rotations_(clip.joints()),
+      translations_(clip.joints()) {
+  const int second = std::min(rig.first_frame(), clip.frames - 1) + 1;
+  if (second >= clip.frames || !(clip.frame_time > 0)) return;
+  sample(clip, second, {rotations_, translations_});
+  next_ = stepper_.see_next(pose(), clip.frame_time);
+}
+
+void ClipStepper::step(double frame, double advance, double seconds) {
+  const Pose pose = {rotations_, translations_};
+  sample(clip_, frame, pose);
+  flight_ = lookout_.flight(frame);
+  const StepMoment moment = {advance * clip_.frame_time, clip_.frame_time, flight_, seconds,
+                             next_ ? &*next_ : nullptr};
+  gate_ = stepper_.step(pose, moment, source_, pose).gate;
+}
+
+FootContacts ClipStepper::contacts() const {
+  const std::span<const float> planted = stepper_.contacts();
+  return {planted[0] > 0.5f, planted[1] > 0.5f};
+}
 
 // A result repeats if no pose of a round differs by more than this from the previous round, mean
 // over the joints. Metres.

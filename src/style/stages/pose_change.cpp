@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache {
 namespace {

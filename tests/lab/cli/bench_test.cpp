@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/int8_layer.h"
 #include "bench/measure.h"
 #include "bench/motions.h"
 #include "bench/networks.h"
-#include "bench/int8_layer.h"
 #include "bench/onnx_file.h"
 #include "bench/published.h"
 #include "lab_program.h"

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "eval/systems/whole_take.h"
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache {
 

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "rig/canonical_skeleton.h"
+#include "rig/canonical_body.h"
 
 namespace panache::yumer2016 {
 namespace {
