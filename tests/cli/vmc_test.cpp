@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../../apps/cli/vmc_coordinates.h"
+#include "../../apps/cli/vmc_messages.h"
 
 namespace panache::test {
 namespace {
