@@ -31,10 +31,14 @@ constexpr float kRestSeconds = 0.03f;
 constexpr float kFadeRate = 20;  // 1/s
 constexpr float kMaxGlide = 2;   // m/s; a faster foot is not about to stand.
 
+// A planted toe goes to the height of the input's, with this time constant: at half of it, joints
+// jump more often; held at the height where it landed, toes are 4 instead of 2 cm off.
+constexpr float kLevelSeconds = 0.1f;
+
 // A nearly straight leg follows only a share of changes of its length, or its knee would fly back
-// and forth: the sine of the angle between its reach and its length. A toe that is kDeep below the
-// floor is raised by more: fully from this sine on.
-constexpr float kBent = 0.6f, kDeep = 0.03f;  // Metres.
+// and forth: the sine of the angle between its reach and its length, all of it from this sine on.
+// With 1, joints jump a tenth less often and walking toes are 2.6 instead of 2 cm off.
+constexpr float kBent = 0.6f;
 
 // A knee that a style or noise bends backwards by a few degrees must not bend further that way: a
 // nearly straight leg bends to where its foot points. Fully active from this shift on.
@@ -42,15 +46,14 @@ constexpr float kFirm = 0.05f, kFirmShift = 0.02f;  // Metres.
 // A nearly straight knee that changes its side turns around the leg at most this fast.
 constexpr float kKneeRate = 12;  // Radians/s.
 
-// The position of the ankle instead of `target`. `depth`: of its toe below the floor, metres.
-Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target, float depth) {
+// The position of the ankle instead of `target`.
+Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target) {
   const float leg = length(knee - hip) + length(ankle - knee);
   const Vec3 way = target - hip;
   const float before = length(ankle - hip), wanted = length(way);
   if (!(leg > 0 && wanted > 0)) return target;
   const float share = std::min(1.0f, std::min(before, wanted) / leg);
-  const float bent = 1 - (1 - kBent) * std::min(1.0f, depth / kDeep);
-  const float follow = std::min(1.0f, std::sqrt(1 - share * share) / bent);
+  const float follow = std::min(1.0f, std::sqrt(1 - share * share) / kBent);
   return hip + way * ((before + follow * (wanted - before)) / wanted);
 }
 
@@ -73,7 +76,8 @@ Vec3 crept(Vec3 way, float seconds) {
 
 }  // namespace
 
-void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, Seconds time) noexcept {
+void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float ground,
+                      Seconds time) noexcept {
   const float seconds = time.output;
   const bool first = foot.state == State::unseen;
   const Vec3 last_offset = foot.offset, last_toe = first ? toe : foot.toe;
@@ -95,6 +99,7 @@ void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, Seconds t
     foot.glide *= exponential(-seconds / kRestSeconds);
     // Sliding of the input's foot is not followed.
     foot.anchor += crept(toe - foot.anchor - (input - foot.stood), seconds);
+    foot.anchor.y += filter_gain(seconds, kLevelSeconds) * (input.y + ground - foot.anchor.y);
     const Vec3 pull = foot.anchor - toe;
     foot.offset = held(pull);
     foot.speed = seconds > 0 ? (foot.offset - last_offset) / seconds : Vec3{};
@@ -128,18 +133,17 @@ Vec3 FootLock::bend(Foot& foot, Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 ahead, flo
 
 void FootLock::step(const BodyPose& body, const HumanPositions& joints,
                     std::span<const float, kFeet> contacts, std::span<const float, kFeet> level,
-                    float amount, Seconds seconds, BodyChange& change) noexcept {
+                    float amount, float ground, Seconds seconds, BodyChange& change) noexcept {
   const float floor = toe_floor(body);
   const Quat to_world = rotation_y(body.facing + change.turn);
   const Vec3 origin = mid_hip(body) + change.translation;
   for (int f = 0; f < kFeet; ++f) {
     Foot& foot = feet_[f];
     const Vec3 toe = origin + rotate(to_world, joints[index(kToes[f])]);
-    follow(foot, body.joints[index(kToes[f])], toe, contacts[f], seconds);
+    follow(foot, body.joints[index(kToes[f])], toe, contacts[f], ground, seconds);
     Vec3 offset = foot.offset;
     offset.y *= 1 - level[f];
-    const float depth = std::max(0.0f, floor - (toe.y + offset.y));
-    offset.y += depth;
+    offset.y = std::max(offset.y, floor - toe.y);
     if (amount <= 0 || offset == Vec3{}) {
       foot.knee = {};
       continue;
@@ -148,7 +152,7 @@ void FootLock::step(const BodyPose& body, const HumanPositions& joints,
     const int hip = index(kUpperLegs[f]), knee = index(kLowerLegs[f]), ankle = index(kAnkles[f]);
     const Vec3 shift = rotate(conjugate(to_world), offset) * amount;
     const Vec3 target =
-        easy_target(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift, depth);
+        easy_target(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift);
     const float firm = std::min(1.0f, length(shift) / kFirmShift);
     const Vec3 ahead = knee_way(joints[ankle], joints[index(kToes[f])]);
     const TwoBoneTurn turn = two_bone_ik(

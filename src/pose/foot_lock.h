@@ -22,10 +22,11 @@ class FootLock {
   // Adjusts the legs of `change`, and raises toes below toe_floor() as far as the legs easily can.
   // `joints`: changed_joints() of body and change; `contacts`: probability that each foot is
   // planted, 0 to 1; `level`: how far each foot's height is already fixed, 0 to 1; `amount`: how
-  // much of the correction to apply, 0 (none at all) to 1.
+  // much of the correction to apply, 0 (none at all) to 1; `ground`: how much higher the ground is
+  // under the changed feet than under the input's, metres.
   void step(const BodyPose& body, const HumanPositions& joints,
             std::span<const float, kFeet> contacts, std::span<const float, kFeet> level,
-            float amount, Seconds seconds, BodyChange& change) noexcept;
+            float amount, float ground, Seconds seconds, BodyChange& change) noexcept;
 
   // Calls visit(member) for all state of a foot lock.
   template <class Self, class Visit>
@@ -48,7 +49,8 @@ class FootLock {
     Vec3 knee;    // Side of its knee, heading frame, unit; 0 if not moved.
   };
   // Updates a foot whose toe is at `input` and, with the change but uncorrected, at `toe` (world).
-  static void follow(Foot& foot, Vec3 input, Vec3 toe, float contact, Seconds time) noexcept;
+  static void follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float ground,
+                     Seconds time) noexcept;
 
   // The side of the knee of a leg whose foot is moved. `ahead`: where the foot points; `firm`: how
   // much a nearly straight knee follows it, 0 to 1.

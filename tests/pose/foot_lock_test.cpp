@@ -97,7 +97,7 @@ std::vector<Vec3> knees_of(const std::vector<float>& aheads) {
     joints[toe] = joints[ankle] + foot;
     BodyChange change;
     change.translation.y = -0.03f - (mid_hip(body).y + joints[toe].y);
-    lock.step(body, joints, contacts, kUnlevelled, 1, {1 / 120.0f, 1 / 120.0f}, change);
+    lock.step(body, joints, contacts, kUnlevelled, 1, 0, {1 / 120.0f, 1 / 120.0f}, change);
     knees.push_back(rotate(change.rotations[hip], joints[knee] - joints[hip]));
   }
   return knees;
@@ -145,6 +145,8 @@ class Sliding {
   }
   // Input seconds per output second.
   void play_at(float rate) { rate_ = rate; }
+  // How much higher the ground is under the style's feet, metres.
+  void climb(float ground) { ground_ = ground; }
 
  private:
   Vec3 lock(const BodyPose& body, Vec3 moved, float contact, float amount) {
@@ -153,7 +155,8 @@ class Sliding {
     const float contacts[kFeet] = {contact, 0};
     HumanPositions joints;
     changed_joints(body, change, joints);
-    lock_.step(body, joints, contacts, kUnlevelled, amount, {rate_ / 30, 1 / 30.0f}, change);
+    lock_.step(body, joints, contacts, kUnlevelled, amount, ground_, {rate_ / 30, 1 / 30.0f},
+               change);
     changed_joints(body, change, joints);
     const Vec3 toe = joints[index(HumanJoint::left_toes)];
     return mid_hip(body) + change.translation + rotate(rotation_y(body.facing), toe);
@@ -163,7 +166,7 @@ class Sliding {
   PosedRig rig_;
   BodyPose body_;
   FootLock lock_;
-  float rate_ = 1;
+  float rate_ = 1, ground_ = 0;
 };
 
 TEST(FootLock, a_planted_foot_stays_and_a_free_one_slides) {
@@ -191,6 +194,22 @@ TEST(FootLock, a_planted_foot_creeps_to_where_the_style_wants_it) {
     last = toe;
   }
   EXPECT_LT(length(last - wanted), 0.011f) << "a little is left";
+}
+
+TEST(FootLock, a_planted_toe_goes_to_the_height_of_the_inputs_above_the_ground_under_it) {
+  // The style's path climbs by 15 cm; a leg that is nearly straight follows by most of that.
+  Sliding body;
+  const Vec3 start = body.step(0, 1, 1);
+  body.climb(0.15f);
+  Vec3 last = start;
+  for (int f = 0; f < 30; ++f) {
+    const Vec3 toe = body.step(0, 1, 1);
+    EXPECT_GE(toe.y, last.y - 1e-4f) << f;
+    EXPECT_LT(toe.y - last.y, 0.06f) << f;
+    last = toe;
+  }
+  EXPECT_GT(last.y - start.y, 0.12f);
+  EXPECT_LT(last.y - start.y, 0.151f);
 }
 
 TEST(FootLock, a_released_foot_comes_back_without_a_jump) {
@@ -344,7 +363,7 @@ TEST(FootLock, a_straight_leg_does_not_let_its_knee_fly) {
     FootLock lock;
     BodyChange change;
     const float contacts[kFeet] = {0, 0};
-    lock.step(body, joints, contacts, kUnlevelled, 1, {1 / 60.0f, 1 / 60.0f}, change);
+    lock.step(body, joints, contacts, kUnlevelled, 1, 0, {1 / 60.0f, 1 / 60.0f}, change);
     return length(log_rotation(change.rotations[index(HumanJoint::left_upper_leg)]));
   };
   // All of 1 mm would bend it by acos(0.799 / 0.8) = 0.05 radians.

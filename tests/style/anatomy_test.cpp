@@ -111,6 +111,24 @@ TEST_F(AnatomyTest, knees_do_not_bend_forward_nor_elbows_back) {
   EXPECT_LT(bend(elbow, left_upper_arm, left_lower_arm, left_hand), 15);
 }
 
+TEST_F(AnatomyTest, a_twist_of_the_upper_arm_does_not_bend_its_elbow_the_wrong_way) {
+  // In the input the forearm points ahead.
+  for (HumanPositions* joints : {&body_.positions, &body_.joints}) {
+    const Vec3 elbow = (*joints)[index(left_lower_arm)];
+    Vec3& hand = (*joints)[index(left_hand)];
+    hand = elbow +
+           rotate(axis_angle(rotate(rotation_y(body_.facing), kLeft), -60 * kDegree), hand - elbow);
+  }
+  const Vec3 arm = way({}, left_upper_arm, left_lower_arm);
+  const auto ahead = [&](const BodyChange& change) {
+    return dot(way(change, left_lower_arm, left_hand), Vec3{0, 0, 1});
+  };
+  ASSERT_GT(ahead({}), 0.7f);
+  const BodyChange twist = turned(left_upper_arm, left_hand, axis_angle(arm, 160 * kDegree));
+  ASSERT_LT(ahead(twist), -0.3f);
+  EXPECT_GT(ahead(kept(twist)), 0.1f);
+}
+
 TEST_F(AnatomyTest, a_torso_is_not_turned_around_and_its_arms_go_with_it) {
   float last = 0;
   for (int degrees = 0; degrees <= 170; degrees += 10) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/easing.h"
 #include "base/elementary.h"
 #include "pose/contacts.h"
 #include "pose/limb.h"
@@ -69,6 +70,7 @@ Vec3 seen_in(const Frame& frame, Vec3 v) {
   return {dot(v, frame.x), dot(v, frame.y), dot(v, frame.z)};
 }
 
+constexpr Vec3 kHanging = {0, -1, 0};
 constexpr std::array<float, 2> kOutward = {1, -1};  // Along x, of left and right.
 constexpr int kHalvings = 6;  // Of the share of a held leg that is taken back.
 // A held leg goes back all the way in no less than this: at once, a foot that rests beside its hip
@@ -166,8 +168,17 @@ class Limits {
     }
     ease(share, wanted);
     if (share == 0) return;
-    // Towards its bend in the input.
-    turn(base, below, changed(base, upper, lower_way), share, lower, last);
+    // Towards its bend in the input: against the upper limb or, where a style's twist of that would
+    // itself bend the hinge the wrong way, to the same side as there. The side of a limb that is
+    // raised is not defined.
+    constexpr float kRaised = 0.5f, kLow = -0.2f;  // Heights of the upper limb's unit direction.
+    const Vec3 before = seen_in(base.frame, upper_way);
+    const float low = smooth_step((kRaised - std::max(above.y, before.y)) / (kRaised - kLow));
+    const Quat side =
+        rotation_between(kHanging, above) * conjugate(rotation_between(kHanging, before));
+    const Vec3 bent = changed(base, upper, lower_way);
+    const Vec3 aside = rotate(side, seen_in(base.frame, lower_way));
+    turn(base, below, normalized(lerp(bent, aside, low), bent), share, lower, last);
   }
 
   // `local`: the hand's direction in its own axes; zero if unknown.

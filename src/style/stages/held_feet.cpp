@@ -32,7 +32,7 @@ void HeldFeet::step(StageWork& work) noexcept {
   if (work.options.foot_lock) {
     const BodyChange free = work.change;
     lock_.step(input, work.joints, contacts_, work.resting,
-               work.asked.amount * work.asked.shape->foot_lock,
+               work.asked.amount * work.asked.shape->foot_lock, work.root.translation.y + work.lift,
                {static_cast<float>(work.time.input), work.time.output}, work.change);
     keep_held_legs(work.body, free, work.time, released_, work.change);
   }
