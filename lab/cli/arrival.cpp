@@ -70,10 +70,12 @@ std::string complaints(const std::vector<StyleArrival>& styles,
   std::string text;
   for (const StyleArrival& style : styles) {
     if (style.from_input_cm < kAlike) {
-      text += style.style + ": " + fixed(style.from_input_cm, 1) + " cm from a neutral walk\n";
+      text += style.style + ": " + fixed(style.from_input_cm, 1) +
+              " cm from a neutral walk; real takes " + fixed(style.real_from_neutral_cm, 1) + "\n";
     }
     if (style.nearest_cm < kAlike) {
-      text += style.style + ": " + fixed(style.nearest_cm, 1) + " cm from " + style.nearest + "\n";
+      text += style.style + ": " + fixed(style.nearest_cm, 1) + " cm from " + style.nearest +
+              "; real takes " + fixed(style.real_nearest_cm, 1) + "\n";
     }
     for (const StyleName& name : names) {
       if (name.name != style.style) continue;

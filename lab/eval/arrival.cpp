@@ -83,9 +83,11 @@ Gaits gaits_of(const std::vector<const Take*>& takes) {
   return out;
 }
 
+using Look = std::vector<Vec3>;
+
 // Mean positions of the joints about the hips, height of the hips, and deviations, metres.
-std::vector<Vec3> look_of(const Take& take) {
-  std::vector<Vec3> out(2 * kHumanJoints);
+Look look_of(const Take& take) {
+  Look out(2 * kHumanJoints);
   const float share = 1 / static_cast<float>(take.frames());
   const auto place = [&](int f, int j) {
     return j == 0 ? Vec3{0, take.body[f][0].y, 0} : take.body[f][j] - take.body[f][0];
@@ -103,11 +105,27 @@ std::vector<Vec3> look_of(const Take& take) {
 }
 
 // Mean over the joints, cm.
-double apart_cm(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+double apart_cm(const Look& a, const Look& b) {
   if (a.empty() || b.empty()) return kNotMeasured;
   double sum = 0;
   for (size_t i = 0; i < a.size(); ++i) sum += double{length(a[i] - b[i])};
   return 100 * sum / kHumanJoints;
+}
+
+// What the looks of `to`, on average, have and those of `from` do not; empty if either has none.
+Look change_of_look(const std::vector<const Take*>& from, const std::vector<const Take*>& to) {
+  if (from.empty() || to.empty()) return {};
+  Look out(2 * kHumanJoints);
+  const auto add = [&](const std::vector<const Take*>& takes, float weight) {
+    for (const Take* take : takes) {
+      const Look look = look_of(*take);
+      for (size_t i = 0; i < out.size(); ++i) {
+        out[i] += look[i] * (weight / static_cast<float>(takes.size()));
+      }
+    }
+  };
+  add(to, 1), add(from, -1);
+  return out;
 }
 
 // The shares of `real` and `side`, changes of real takes, that the given changes have.
@@ -186,7 +204,8 @@ Result<std::vector<StyleArrival>> WalkSet::measure(const System& system) const {
     for (const TestInput* input : *list) before[input].add(input->take);
   }
   std::vector<StyleArrival> out(styles_.size());
-  std::vector<std::vector<Vec3>> looks(styles_.size());  // On the walker's first walk.
+  // On the walker's first walk, and what real takes change.
+  std::vector<Look> looks(styles_.size()), real_looks(styles_.size());
   std::optional<Error> failed;
   std::mutex mutex;
   parallel_for(static_cast<int>(styles_.size()), [&](int s) {
@@ -194,6 +213,7 @@ Result<std::vector<StyleArrival>> WalkSet::measure(const System& system) const {
     StyleArrival& style = out[s];
     style.style = real.style;
     const std::vector<const Take*> neutral = neutral_of(real);
+    real_looks[s] = change_of_look(neutral, real.training);
     const Gaits is = gaits_of(real.training), was = gaits_of(neutral), test = gaits_of(real.test);
     style.change = change_of(median_of(was.movement), median_of(is.movement));
     const SideVector side = difference(mean_of(is.side), mean_of(was.side));
@@ -238,12 +258,14 @@ Result<std::vector<StyleArrival>> WalkSet::measure(const System& system) const {
   for (size_t s = 0; s < out.size(); ++s) {
     if (looks[s].empty()) continue;
     out[s].from_input_cm = apart_cm(looks[s], look_of(walker_.front()->take));
+    out[s].real_from_neutral_cm = apart_cm(real_looks[s], Look(2 * kHumanJoints));
     for (size_t other = 0; other < out.size(); ++other) {
       const double apart = other == s ? kNotMeasured : apart_cm(looks[s], looks[other]);
       if (std::isnan(apart) || !(std::isnan(out[s].nearest_cm) || apart < out[s].nearest_cm)) {
         continue;
       }
       out[s].nearest_cm = apart, out[s].nearest = out[other].style;
+      out[s].real_nearest_cm = apart_cm(real_looks[s], real_looks[other]);
     }
   }
   return out;

@@ -34,9 +34,11 @@ struct StyleArrival {
   double slowest = 0, fastest = 0;  // Steps a second of all real takes.
   ArrivedShares real;               // Of real test takes, on the same scale.
   std::array<ArrivedShares, kWalksKeys.size()> made;
-  // On the walker's walks: distance of the joints' mean positions and deviations from those of the
-  // input, and from the nearest other style.
+  // Distances of the joints' mean positions and deviations: on the walker's walk from those of the
+  // input, and from the nearest other style; and of what training takes change of their performer's
+  // neutral walks, from nothing and from that other style's.
   double from_input_cm = kNotMeasured, nearest_cm = kNotMeasured;
+  double real_from_neutral_cm = kNotMeasured, real_nearest_cm = kNotMeasured;
   std::string nearest;
 };
 
