@@ -10,7 +10,7 @@ namespace panache {
 namespace {
 
 // A body of which the left knee, the hips and the toes are this high, with a style that lowers the
-// hips from a frame on; how far it has been lifted again after a second.
+// hips from a frame on; how far it is to be lifted again after a second.
 struct Heights {
   float knee = 0.5f, hips = 0.9f, toes = 0;
 };
@@ -33,8 +33,7 @@ float lift(const Heights& heights, float lowered, float carried = 1, int from = 
     change.translation.y = -down;
     HumanPositions joints;
     changed_joints(body, change, joints);
-    floor.step(body, joints, 1, carried, 0, StepTime{1 / 60.0, 1 / 60.0f, f == 0}, change);
-    lifted = change.translation.y + down;
+    lifted = floor.step(body, joints, 1, carried, 0, {1 / 60.0, 1 / 60.0f, f == 0}, change);
   }
   return lifted;
 }
@@ -52,7 +51,7 @@ TEST(FloorClearance, lifts_a_body_that_kneels_or_sits_deeper_than_its_input) {
 
 TEST(FloorClearance, lowers_a_body_that_hovers_unless_something_else_carries_it) {
   EXPECT_NEAR(lift({}, -0.08f), -0.08f, 1e-3f);
-  EXPECT_NEAR(lift({}, -0.08f, 1, 48), -0.01f, 0.01f) << "a hop stays one";
+  EXPECT_NEAR(lift({}, -0.08f, 1, 48), -0.015f, 0.01f) << "a hop stays one";
   EXPECT_EQ(lift({}, -0.08f, 0), 0);
 }
 

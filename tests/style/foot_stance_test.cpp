@@ -44,7 +44,8 @@ class Standing : public ::testing::Test {
       body_.joints[index(HumanJoint::left_toes)].z += speed * kTick;
       change_ = asked();
       changed_joints(body_, change_, joints_);
-      stage_.step(body_, joints_, stance_, 1, stepping, lift_, {kTick, kTick, first_}, change_);
+      stage_.step(body_, joints_, stance_, 1, stepping, lift_, raised_, 0, {kTick, kTick, first_},
+                  change_);
       first_ = false;
     }
     changed_joints(body_, change_, joints_);
@@ -63,7 +64,7 @@ class Standing : public ::testing::Test {
   PosedRig rig_;
   BodyPose body_;
   Stance stance_;
-  float fold_ = 0.5f, heel_ = 0, turn_ = 0, hips_ = 0, lift_ = 0;
+  float fold_ = 0.5f, heel_ = 0, turn_ = 0, hips_ = 0, lift_ = 0, raised_ = 0;
   FootStance stage_;
   bool first_ = true;
   BodyChange change_;
@@ -92,6 +93,23 @@ TEST_F(Standing, hips_come_down_where_the_leg_is_too_short) {
   EXPECT_NEAR(above_input(HumanJoint::left_toes), 0, 3e-3f);
   EXPECT_NEAR(above_input(HumanJoint::right_toes), 0, 3e-3f);
   EXPECT_LT(change_.translation.y, 0.02f);
+}
+
+TEST_F(Standing, what_the_floor_asks_of_the_hips_is_eased_and_the_feet_stay) {
+  run(0.1);
+  raised_ = -0.06f;
+  float last = change_.translation.y;
+  for (int f = 0; f < 60; ++f) {
+    run(1 / 60.0);
+    EXPECT_LE(change_.translation.y, last) << f;
+    EXPECT_GT(change_.translation.y, last - 0.01f) << f;
+    EXPECT_NEAR(above_input(HumanJoint::left_toes), 0, 3e-3f) << f;
+    last = change_.translation.y;
+  }
+  EXPECT_NEAR(last, -0.06f, 1e-3f);
+  raised_ = 0;
+  run(2, 1);
+  EXPECT_EQ(change_.translation.y, 0) << "and goes to the bit";
 }
 
 TEST_F(Standing, heels_rise_as_far_as_the_style_stands_on_its_toes) {
@@ -145,7 +163,7 @@ TEST_F(Standing, the_pose_after_the_first_tells_whether_the_first_one_rests) {
     stage_.reset();
     change_ = asked();
     changed_joints(body_, change_, joints_);
-    stage_.step(body_, joints_, stance_, 1, 0, 0, {0, 0, true, &next}, change_);
+    stage_.step(body_, joints_, stance_, 1, 0, 0, 0, 0, {0, 0, true, &next}, change_);
     return stage_.held()[0];
   };
   EXPECT_EQ(first_step(), 1);

@@ -158,8 +158,8 @@ TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) 
     };
     const auto check = [&](auto&& spoil) {
       LiveStylizer odd = character({}), odd_and_late = character(late);
-      // One frame of rest pose alone leaves 1.1 degrees, by filters of seconds, and 3 where a foot is
-      // planted a frame sooner.
+      // One frame of rest pose alone leaves 1.1 degrees, by filters of seconds, and 3 where a foot
+      // is planted a frame sooner.
       const Clip out = play(odd, kStepSeconds, spoil);
       const int later = kOdd + 200;
       EXPECT_LT(std::min(apart(out, expected, later), apart(out, afresh, later)), 3.5f) << number;

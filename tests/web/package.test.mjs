@@ -10,6 +10,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
 const read = (path) => readFile(join(root, path));
+const tsc = join(root, 'apps/web/node_modules/typescript/bin/tsc');
 const kJoints = 19, kFrames = 180;
 
 let folder, panache, createWithWalker, wasm, PanacheError, createFigure, createWalk,
@@ -17,8 +18,10 @@ let folder, panache, createWithWalker, wasm, PanacheError, createFigure, createW
 before(async () => {
   // The package and the sample as a user has them.
   folder = await mkdtemp(join(tmpdir(), 'panache-'));
-  await cp(join(root, 'apps/web/package'), join(folder, 'package'), { recursive: true });
-  for (const path of ['LICENSE', 'build/wasm/panache.wasm', 'models/panache-int8.safetensors',
+  execFileSync(process.execPath,
+    [tsc, '-p', join(root, 'apps/web/package'), '--outDir', join(folder, 'package')]);
+  for (const path of ['apps/web/package/README.md', 'apps/web/package/package.json',
+    'apps/web/package/example.mjs', 'LICENSE', 'build/wasm/panache.wasm', 'models/panache-int8.safetensors',
     'models/neutral.safetensors', 'models/remover-int8.safetensors', 'models/walker.safetensors']) {
     await cp(join(root, path), join(folder, 'package', basename(path)));
   }
@@ -81,7 +84,7 @@ test('the package is whole: licence, example and types', async () => {
   made.free();
 
   await writeFile(join(project, 'use.mts'), `
-    import { Panache, PanacheError, type Pose, type Shape } from 'panache';
+    import { Character, Panache, PanacheError, type Pose, type Shape } from 'panache';
     export async function use(bytes: Uint8Array, pose: Pose): Promise<string> {
       const panache = await Panache.create({ wasm: bytes, model: bytes });
       const shape: Partial<Shape> = { legs: 0 };
@@ -93,6 +96,10 @@ test('the package is whole: licence, example and types', async () => {
       character.step(pose, pose, 1 / 60);
       // @ts-expect-error A name of a style is a string.
       character.setStrength(1, 1);
+      // @ts-expect-error Characters are made by createCharacter().
+      new Character(panache, skeleton, {});
+      // @ts-expect-error What the package uses itself is not declared.
+      panache._model();
       return panache.openFile(bytes, 'walk.bvh').joints[0].name + new PanacheError('').message;
     }`);
   await symlink(join(root, 'apps/web/node_modules/three'), join(project, 'node_modules/three'));
@@ -113,7 +120,6 @@ test('the package is whole: licence, example and types', async () => {
       new StyledBones(panache, new AnimationMixer(root));
       return styled.character.report().gate;
     }`);
-  const tsc = join(root, 'apps/web/node_modules/typescript/bin/tsc');
   for (const [module, resolution] of [['node16', 'node16'], ['esnext', 'bundler']]) {
     const ran = spawnSync(process.execPath, [tsc, '--noEmit', '--strict', '--target', 'es2022',
       '--module', module, '--moduleResolution', resolution, '--skipLibCheck', 'use.mts', 'use_three.mts'],

@@ -77,8 +77,8 @@ void carry_out(LegsApart& legs, StageWork& work) noexcept {
 void carry_out(FloorClearance& floor, StageWork& work) noexcept {
   const float carried =
       work.above_floor * (1 - work.seated) * (1 - work.flight) * (1 - share_lifted(work.lift));
-  floor.step(work.now.world, work.joints, work.asked.amount, carried, work.root.translation.y,
-             work.time, work.change);
+  work.raised = floor.step(work.now.world, work.joints, work.asked.amount, carried,
+                           work.root.translation.y, work.time, work.change);
 }
 
 void carry_out(FreeFall& fall, StageWork& work) noexcept {
@@ -86,10 +86,10 @@ void carry_out(FreeFall& fall, StageWork& work) noexcept {
 }
 
 void carry_out(FootStance& stance, StageWork& work) noexcept {
-  if (!work.options.foot_lock) return;
-  const float amount = work.asked.amount * work.asked.shape->foot_lock;
-  stance.step(work.body, work.joints, work.asked.stance, amount * (1 - work.flight), work.stepping,
-              work.lift + work.root.translation.y, work.time, work.change);
+  const float firmness = work.options.foot_lock ? work.asked.shape->foot_lock : 0;
+  stance.step(work.body, work.joints, work.asked.stance, work.asked.amount * firmness,
+              work.stepping, work.lift + work.root.translation.y, work.raised, work.flight,
+              work.time, work.change);
   std::ranges::copy(stance.held(), work.resting.begin());
 }
 

@@ -9,9 +9,8 @@
 namespace panache {
 namespace {
 
-constexpr float kLiftSeconds = 0.1f;  // Time constant.
 // A body sinks slowly, so that a hop stays one, but stops sinking quickly. Time constants.
-constexpr float kSinkSeconds = 0.6f, kStopSeconds = 0.05f, kSmoothSeconds = 0.1f;
+constexpr float kSinkSeconds = 0.8f, kStopSeconds = 0.05f;
 
 // Joints that a lying or kneeling body rests on, and the minimum height of their middle then,
 // metres.
@@ -44,18 +43,15 @@ float height_of_toes(const BodyPose& body, const HumanPositions& joints, const B
 
 }  // namespace
 
-void FloorClearance::step(const BodyPose& body, const HumanPositions& joints, float amount,
-                          float carried, float ground, const StepTime& time,
-                          BodyChange& change) noexcept {
+float FloorClearance::step(const BodyPose& body, const HumanPositions& joints, float amount,
+                           float carried, float ground, const StepTime& time,
+                           const BodyChange& change) noexcept {
   const float depth =
       std::max(floor_depth(body, joints, change), resting_depth(body, joints, change));
-  lift_ += time.gain(kLiftSeconds) * (depth - lift_);
-  change.translation.y += amount * lift_;
   const float height = carried * std::max(0.0f, height_of_toes(body, joints, change) - ground);
-  const float seconds = height > sink_wanted_ ? kSinkSeconds : kStopSeconds;
-  approach(sink_wanted_, height, time.gain(seconds), 1e-5f);
-  approach(sink_, sink_wanted_, time.gain(kSmoothSeconds), 1e-5f);
-  change.translation.y -= amount * sink_;
+  const float seconds = height > sink_ ? kSinkSeconds : kStopSeconds;
+  approach(sink_, height, time.gain(seconds), 1e-5f);
+  return amount * (depth - sink_);
 }
 
 }  // namespace panache

@@ -8,26 +8,27 @@ namespace panache {
 
 // A style trained on one body may push another's feet, or its knees when kneeling, through the
 // floor. Lifts the body by the depth of its lowest toe below both the floor and the input's lowest
-// toe, or of a knee or the hips below both their resting height and the input's. The lift changes
-// slowly, so that the body does not jerk at each step; the leg IK removes the remaining toe
-// penetration. If a style bends the legs more than in its own takes, the body would hover: lowers
-// it by the height of its lowest toe above the input's.
+// toe, or of a knee or the hips below both their resting height and the input's; the leg IK removes
+// what is left of a toe's. If a style bends the legs more than in its own takes, the body would
+// hover: lowers it by the height of its lowest toe above the input's, slowly, so that a hop stays
+// one.
 class FloorClearance {
  public:
-  void reset() noexcept { lift_ = sink_wanted_ = sink_ = 0; }
-  // `joints`: changed_joints(); `amount`: how active any style is, `carried`: how much the feet
-  // carry the body, both 0 to 1; `ground`: see Climb::height().
-  void step(const BodyPose& body, const HumanPositions& joints, float amount, float carried,
-            float ground, const StepTime& time, BodyChange& change) noexcept;
+  void reset() noexcept { sink_ = 0; }
+  // How far to raise the hips, metres, not eased: FootStance moves them. `joints`:
+  // changed_joints(); `amount`: how active any style is, `carried`: how much the feet carry the
+  // body, both 0 to 1; `ground`: see Climb::height().
+  float step(const BodyPose& body, const HumanPositions& joints, float amount, float carried,
+             float ground, const StepTime& time, const BodyChange& change) noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.lift_), visit(self.sink_wanted_), visit(self.sink_);
+    visit(self.sink_);
   }
 
  private:
-  float lift_ = 0, sink_wanted_ = 0, sink_ = 0;  // Metres; `sink_` follows `sink_wanted_`.
+  float sink_ = 0;  // How far the body is lowered, metres.
 };
 
 }  // namespace panache

@@ -14,8 +14,8 @@ namespace {
 constexpr float kRestingFoot = 0.1f, kMovingFoot = 0.3f;  // m/s
 constexpr float kFastestFoot = 1;                         // m/s, limit for the filter.
 constexpr float kLowToe = 0.12f, kHighToe = 0.2f;         // Metres: a raised foot is the style's.
-constexpr float kSpeedSeconds = 0.06f, kRestSeconds = 0.1f,
-                kDropSeconds = 0.08f;  // Time constants.
+constexpr float kSpeedSeconds = 0.06f, kRestSeconds = 0.1f;  // Time constants,
+constexpr float kHeightSeconds = 0.04f;                      // of the hips' height; twice.
 constexpr float kFreeTurn = 0.17f;  // Radians that a foot may be turned beyond its style's stance.
 constexpr float kReach = 0.985f;    // Maximum stretch, as a share of the leg's length.
 constexpr float kFirm = 0.05f;      // See bend_of(), metres.
@@ -52,19 +52,23 @@ void FootStance::watch(const BodyPose& body, int f, const StepTime& time, Foot& 
   foot.seen = 1;
 }
 
+void FootStance::move_hips(float height, float gain, BodyChange& change) noexcept {
+  approach(height_wanted_, height, gain, 1e-5f);
+  approach(height_, height_wanted_, gain, 1e-5f);
+  change.translation.y += height_;
+}
+
 void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Stance& stance,
-                      float amount, float stepping, float lift, const StepTime& time,
-                      BodyChange& change) noexcept {
-  const float standing = amount * (1 - stepping);
+                      float amount, float stepping, float lift, float raised, float flight,
+                      const StepTime& time, BodyChange& change) noexcept {
+  const float standing = amount * (1 - stepping) * (1 - flight);
   const bool fresh = time.first || !feet_[0].seen;
   for (int f = 0; f < kFeet; ++f) {
     watch(body, f, time, feet_[f]);
     held_[f] = standing * feet_[f].rest;
   }
-  if (!(held_[0] > 0 || held_[1] > 0)) {
-    drop_wanted_ = drop_ = 0;
-    return;
-  }
+  const float gain = fresh ? 1.0f : (1 - flight) * filter_gain(time.output, kHeightSeconds);
+  if (!(held_[0] > 0 || held_[1] > 0)) return move_hips(raised, gain, change);
 
   for (int f = 0; f < kFeet; ++f) {
     const int ankle = index(kAnkles[f]), toe = index(kToes[f]);
@@ -83,28 +87,25 @@ void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Sta
   }
   changed_legs(body, change, joints);
 
-  // The rise of each ankle that puts its toe at the input's height, or `lift` above it, and the
-  // drop of the hips that this needs.
+  // How far the hips drop so that the legs reach.
   const float origin = mid_hip(body).y + change.translation.y;
-  std::array<float, kFeet> rise;
+  const auto rise_of = [&](int f, float hips) {
+    return held_[f] * (feet_[f].toe.y + lift - (hips + joints[index(kToes[f])].y));
+  };
   float drop = 0;
   for (int f = 0; f < kFeet; ++f) {
     const Vec3 hip = joints[index(kUpperLegs[f])], knee = joints[index(kLowerLegs[f])];
     const Vec3 ankle = joints[index(kAnkles[f])];
-    rise[f] = held_[f] * (feet_[f].toe.y + lift - (origin + joints[index(kToes[f])].y));
     const Vec3 way = ankle - hip;
     const float leg = kReach * (length(knee - hip) + length(ankle - knee));
     const float aside = way.x * way.x + way.z * way.z;
     const float down = std::sqrt(std::max(0.0f, leg * leg - aside));
     const float now = std::max(down, -way.y);  // Legs that are straight may stay so.
-    drop = std::max(drop, held_[f] * (-(way.y + rise[f]) - now));
+    drop = std::max(drop, held_[f] * (-(way.y + rise_of(f, origin + raised)) - now));
   }
-  const float gain = fresh ? 1.0f : filter_gain(time.output, kDropSeconds);
-  drop_wanted_ += gain * (drop - drop_wanted_);
-  drop_ += gain * (drop_wanted_ - drop_);
-  change.translation.y -= drop_;
+  move_hips(raised - drop, gain, change);
   for (int f = 0; f < kFeet; ++f) {
-    const float up = rise[f] + held_[f] * drop_;
+    const float up = rise_of(f, mid_hip(body).y + change.translation.y);
     if (!(held_[f] > 0) || up == 0) continue;
     const LimbJoints leg = leg_joints(f);
     const Vec3 ankle = joints[leg.end], ahead = knee_way(ankle, joints[index(kToes[f])]);

@@ -1,5 +1,5 @@
 #pragma once
-// Keeps feet at rest that rest in the input.
+// Keeps feet at rest that rest in the input, and finds the height of the hips.
 
 #include <array>
 #include <cstdint>
@@ -13,15 +13,19 @@ namespace panache {
 // On a standing body, a style learnt from steps outputs the mean of its stepping legs: feet in the
 // air, on their toes, or turned out. While a foot of the input rests and the feet do not step, its
 // heel and toe stay at the input's heights, lifted and turned no further than in the style's
-// stance. The knee bends for that, and the hips sink if the leg is too short.
+// stance. The knee bends for that, and the hips sink if the leg is too short. What this and the
+// floor need of the hips' height is one number with one filter: with a filter for each, joints jump
+// more often.
 class FootStance {
  public:
   void reset() noexcept { *this = {}; }
   // `joints`: changed_joints(); updated. `amount`: how active any style is, 0 to 1. `stepping`:
-  // StepWatch::amount(). `lift`: of the ground under the
-  // changed path and of a gesture, metres.
+  // StepWatch::amount(). `lift`: of the ground under the changed path and of a gesture, metres.
+  // `raised`: FloorClearance::step(). `flight`: FlightWatch::amount(); in the air no foot rests,
+  // and the hips keep what was needed on the ground.
   void step(const HeadingBody& body, HumanPositions& joints, const Stance& stance, float amount,
-            float stepping, float lift, const StepTime& time, BodyChange& change) noexcept;
+            float stepping, float lift, float raised, float flight, const StepTime& time,
+            BodyChange& change) noexcept;
   // How much each foot was held at its height at the last step, 0 to 1.
   std::span<const float, kFeet> held() const noexcept { return held_; }
 
@@ -29,7 +33,7 @@ class FootStance {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.feet_), visit(self.held_);
-    visit(self.drop_wanted_), visit(self.drop_);
+    visit(self.height_wanted_), visit(self.height_);
   }
 
  private:
@@ -40,10 +44,12 @@ class FootStance {
     int32_t seen = 0;            // Whether a speed is known. Not a bool: states have no padding.
   };
   static void watch(const BodyPose& body, int f, const StepTime& time, Foot& foot) noexcept;
+  // Moves the hips by `height`, eased, from where the style has them. Metres.
+  void move_hips(float height, float gain, BodyChange& change) noexcept;
 
   std::array<Foot, kFeet> feet_;
   std::array<float, kFeet> held_{};
-  float drop_wanted_ = 0, drop_ = 0;  // Of the hips, metres: eased once, and twice.
+  float height_wanted_ = 0, height_ = 0;  // Metres: eased once, and twice.
 };
 
 }  // namespace panache

@@ -59,6 +59,7 @@ struct StageWork {
   RootOffset root = {};               // The style's change of the way; from the shape
                                       // stage on, without what that holds back.
   Shape shape = {};                   // As requested, reduced where it does not suit the body.
+  float raised = 0;                   // How far the floor raises the hips, not eased; metres.
   float lift = 0;                     // How far a gesture lifts both feet, metres.
   HumanPositions joints = {};  // changed_joints() of body and change, from the balance stage on.
   std::array<float, kFeet> resting{};  // How much feet keep their height, shares.

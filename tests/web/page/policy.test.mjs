@@ -18,7 +18,7 @@ after(() => site.close());
 // What a strict page allows: its own scripts, and to compile WebAssembly, which is not eval.
 const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'";
 const script = `
-import { Panache } from '/package/index.js';
+import { Panache } from '/npm/index.js';
 const bytes = async (name) => (await fetch(name)).arrayBuffer();
 window.violations = [];
 document.addEventListener('securitypolicyviolation', (event) => violations.push(event.blockedURI));
@@ -45,7 +45,7 @@ async function embed() {
     try {
       const body = path === '/' ? '<!doctype html><script type="module" src="/main.js"></script>'
         : path === '/main.js' ? script
-        : path.startsWith('/package/') ? await readFile(join(root, 'apps/web', path))
+        : path.startsWith('/npm/') ? await readFile(join(root, 'build', path))
         : path === '/panache.wasm' ? await readFile(join(root, 'build/wasm/panache.wasm'))
         : await readFile(join(models, path));
       response.setHeader('Content-Type', types[extname(path) || '.html'] ?? 'application/octet-stream');
