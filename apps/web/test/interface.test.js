@@ -6,7 +6,7 @@ import { readdirSync, readFileSync } from 'node:fs';
 import ts from 'typescript';
 import { describe, expect, it } from 'vitest';
 
-import * as structs from '../package/structs.js';
+import * as structs from '../package/structs.ts';
 
 const at = (path) => new URL(`../../../${path}`, import.meta.url);
 const read = (path) => readFileSync(at(path), 'utf8');
@@ -52,7 +52,7 @@ describe('the structs of the package', () => {
 // A call converts numbers to what the module takes, so only the number of arguments can drift.
 it('the package calls the functions of the module with as many arguments as they take', () => {
   const functions = functionsOf(header + sources('apps/web/wasm', '.cpp').join(''));
-  const calls = sources('apps/web/package', '.js').flatMap((text) => callsIn(
+  const calls = sources('apps/web/package', '.ts').flatMap((text) => callsIn(
     ts.createSourceFile('', text, ts.ScriptTarget.ESNext, true)));
   expect(calls.length).toBeGreaterThan(50);
   for (const call of calls) {

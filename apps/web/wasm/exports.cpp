@@ -56,7 +56,7 @@ static nlohmann::json split_words(std::string_view words) {
   }
   return list;
 }
-// See index.d.ts: Style[].
+// See Style in the package's styling.ts.
 PANACHE_EXPORT panache_bytes* panache_page_styles(const panache_model* model) {
   nlohmann::json all = nlohmann::json::array();
   const bool has_sides = check_has_sides(*model->model).ok();

@@ -49,7 +49,7 @@ Json match_plot(const LearnPair& pair, const std::vector<MatchedInstant>& instan
           {"poses", poses}};
 }
 
-// See index.d.ts: LearnReport.
+// See LearnReport in the package's index.ts.
 Json report_of(const LearntStyle& learnt, const LearnPair& pair) {
   const PairReport& report = learnt.pairs.front();
   std::vector<std::string> warnings = learnt.warnings;

@@ -1,4 +1,6 @@
-// Mirrors and smooths tracked poses before they are styled. See index.d.ts.
+// Mirrors and smooths tracked poses before they are styled.
+
+import type { Joint, Pose, Skeleton } from './character.js';
 import { PanacheError, checkFinite, checkJoints, checkPose } from './checks.js';
 
 const kStages = 2;        // Each delays a movement by its time constant or less.
@@ -7,17 +9,18 @@ const kMaxSmooth = 1;     // Seconds.
 
 const human = ['Shoulder', 'UpperArm', 'LowerArm', 'Hand', 'UpperLeg', 'LowerLeg', 'Foot', 'Toes'];
 
-const multiply = ([a, b, c, d], [x, y, z, w]) => [
+const multiply = ([a, b, c, d]: number[], [x, y, z, w]: number[]) => [
   d * x + a * w + b * z - c * y, d * y - a * z + b * w + c * x,
   d * z + a * y - b * x + c * w, d * w - a * x - b * y - c * z];
-const inverse = ([x, y, z, w]) => [-x, -y, -z, w];
-const turn = (q, [x, y, z]) => multiply(multiply(q, [x, y, z, 0]), inverse(q)).slice(0, 3);
+const inverse = ([x, y, z, w]: number[]) => [-x, -y, -z, w];
+const turn = (q: number[], [x, y, z]: number[]) =>
+  multiply(multiply(q, [x, y, z, 0]), inverse(q)).slice(0, 3);
 // In the plane x = 0.
-const mirroredTurn = ([x, y, z, w]) => [x, -y, -z, w];
-const mirroredPlace = ([x, y, z]) => [-x, y, z];
+const mirroredTurn = ([x, y, z, w]: number[]) => [x, -y, -z, w];
+const mirroredPlace = ([x, y, z]: number[]) => [-x, y, z];
 
 // The name of the joint on the other side; null if the name has no side.
-function twinName(name) {
+function twinName(name: string) {
   const swapped = name.replace(/left|right/gi, (side) => {
     const other = side.toLowerCase() === 'left' ? 'right' : 'left';
     return side === side.toUpperCase() ? other.toUpperCase()
@@ -26,10 +29,10 @@ function twinName(name) {
   return swapped === name ? null : swapped;
 }
 
-/** The joint on the other side for each joint, or the joint itself. */
-function findTwins(skeleton, joints) {
+// The joint on the other side for each joint, or the joint itself.
+function findTwins(skeleton: Skeleton, joints: readonly Joint[]) {
   const twins = joints.map((_, j) => j);
-  const names = new Map(joints.map(({ name }, j) => [name, j]));
+  const names = new Map<string | null, number>(joints.map(({ name }, j) => [name, j]));
   joints.forEach(({ name }, j) => { twins[j] = names.get(twinName(name)) ?? j; });
   for (const part of human) {
     const [left, right] = [skeleton.find(`left${part}`), skeleton.find(`right${part}`)];
@@ -41,18 +44,26 @@ function findTwins(skeleton, joints) {
 }
 
 // Rotations from the joint to the root.
-function worldOf(joints, rotationOf) {
-  const world = [];
+function worldOf(joints: readonly Joint[], rotationOf: (joint: number) => number[]) {
+  const world: number[][] = [];
   joints.forEach(({ parent }, j) => {
     world.push(parent < 0 ? rotationOf(j) : multiply(world[parent], rotationOf(j)));
   });
   return world;
 }
 
+/** Prepares tracked poses for a character: step(filtered, ...). */
 export class PoseFilter {
-  #joints; #twins; #rest; #mirror; #smooth; #stages = null;
+  #joints: readonly Joint[]; #twins: number[]; #rest: number[][]; #mirror: boolean; #smooth: number;
+  #stages: Pose[] | null = null;
 
-  constructor(skeleton, joints, { mirror = false, smooth = 0 } = {}) {
+  /** `joints`: those of the skeleton, whose rest pose is symmetric about x = 0. `mirror` exchanges
+   * left and right, as a mirror does; joints that are not human, such as fingers, go by "left" and
+   * "right" in their names. `smooth`: cuts jitter, delaying any movement by at most this long;
+   * seconds, 0 to 1. */
+  constructor(skeleton: Skeleton, joints: readonly Joint[],
+    options: { mirror?: boolean; smooth?: number } = {}) {
+    const { mirror = false, smooth = 0 } = options;
     checkJoints(joints);
     if (joints.length !== skeleton.jointCount) {
       throw new PanacheError(`joints: expected the ${skeleton.jointCount} of the skeleton, found ` +
@@ -68,18 +79,21 @@ export class PoseFilter {
     this.#smooth = smooth;
   }
 
-  apply(pose, seconds) {
+  /** Changes a pose in place, `seconds` after the last one. */
+  apply(pose: Pose, seconds: number): void {
     checkPose(pose, this.#joints.length, 'pose');
     checkFinite(seconds, 'seconds');
     if (this.#mirror) this.#mirrorPose(pose);
     if (this.#smooth > 0) this.#smoothPose(pose, seconds);
   }
-  reset() { this.#stages = null; }
+  /** The next pose is not smoothed with those before. */
+  reset(): void { this.#stages = null; }
 
   // What a joint has turned since its rest pose is that of its twin, mirrored.
-  #mirrorPose({ rotations, translations }) {
+  #mirrorPose({ rotations, translations }: Pose) {
     const joints = this.#joints, rest = this.#rest;
-    const at = (list, j, size) => Array.from(list.subarray(size * j, size * (j + 1)));
+    const at = (list: Float32Array, j: number, size: number) =>
+      Array.from(list.subarray(size * j, size * (j + 1)));
     const world = worldOf(joints, (j) => at(rotations, j, 4));
     const turned = joints.map((_, j) => {
       const twin = this.#twins[j];
@@ -99,7 +113,7 @@ export class PoseFilter {
     });
   }
 
-  #smoothPose({ rotations, translations }, seconds) {
+  #smoothPose({ rotations, translations }: Pose, seconds: number) {
     if (seconds > kLongestGap) this.reset();
     this.#stages ??= Array.from({ length: kStages }, () => (
       { rotations: rotations.slice(), translations: translations.slice() }));

@@ -1,0 +1,267 @@
+// Files with motion, and what plays: the walker and their clips.
+
+import {
+  PanacheError, checkBytes, checkFinite, checkInteger, checkKeys, inUse, unexpected,
+} from './checks.js';
+import type { Panache } from './index.js';
+import { removedIndex, removerHandle, type Remover } from './remover.js';
+import {
+  checkTriggered, personNumbers, sideNumber, styleIndex, timingNumber, writeShape,
+  type Person, type Shape, type Side, type Timing,
+} from './styling.js';
+
+export interface ClipInfo {
+  name: string;
+  frames: number;
+  /** Seconds. */
+  frameTime: number;
+  /** From the first frame to the last. */
+  seconds: number;
+  /** Whether it moves a humanoid joint; animations of morph weights or props do not. */
+  moves: boolean;
+}
+// What the module tells.
+type Description = Pick<MotionFile, 'joints' | 'notes'> & { clips: Omit<ClipInfo, 'seconds'>[] };
+
+export class MotionFile {
+  readonly name: string;
+  /** ".bvh", lower case. */
+  readonly extension: string;
+  /** Empty if the file has a skeleton but no motion; clip 0 is then its rest pose. */
+  readonly clips: readonly ClipInfo[];
+  /** Oddities of the file that did not prevent reading it. */
+  readonly notes: readonly string[];
+  /** Parents before children; the parent of a root is -1. */
+  readonly joints: readonly { name: string; parent: number }[];
+  #panache: Panache; #file: number;
+
+  /** @internal */
+  constructor(panache: Panache, bytes: ArrayBuffer | Uint8Array, name: string, fps: number) {
+    this.name = name;
+    this.extension = (/\.[^.]*$/.exec(name)?.[0] ?? '').toLowerCase();
+    if (this.extension === '.fbx') {
+      throw new PanacheError(`${name}: is FBX, which is not read here; \`panache view ${name}\` ` +
+        `shows it, and \`panache convert ${name} -o ${name.slice(0, -4)}.glb\` makes a file that is read`);
+    }
+    if (!['.bvh', '.glb', '.gltf', '.vrm', '.vrma'].includes(this.extension)) {
+      throw new PanacheError(`${name}: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), found ` +
+        (this.extension ? `the extension '${this.extension}'` : 'no extension'));
+    }
+    checkBytes(bytes, name);
+    const { _module: module } = panache;
+    this.#panache = panache;
+    this.#file = module.use((arena) => module.checked(module.wasm.panache_page_file_create(
+      arena.copy(bytes), bytes.byteLength,
+      arena.text(name.slice(0, name.length - this.extension.length) + this.extension), fps)));
+    const { clips, joints, notes } = module.use((arena) => module.json<Description>(
+      module.wasm.panache_page_file_describe(this.#file, arena.text(name))));
+    this.joints = joints;
+    this.notes = notes;
+    this.clips = clips.map((clip) => ({ ...clip, seconds: Math.max(0, clip.frames - 1) * clip.frameTime }));
+  }
+
+  /** @internal */ _handleFor(panache: Panache): number {
+    if (panache === this.#panache) return inUse(this.#file, 'file');
+    throw new PanacheError(`${this.name}: this file is open in another Panache; open it with openFile()`);
+  }
+
+  /** Throws if the skeleton is not a humanoid. The file may be freed before the player. */
+  createPlayer(clip = 0): Playback {
+    const { _module: module } = this.#panache;
+    const player = module.wasm.panache_page_player_clip(
+      this.#panache._model(), this._handleFor(this.#panache), clip);
+    return new Playback(this.#panache, module.checked(player), this.extension);
+  }
+
+  /** The bytes of the character's file, with its motions replaced by this one, retargeted. */
+  putOn(character: MotionFile, clip = 0): Uint8Array {
+    const { _module: module } = this.#panache;
+    return module.take(module.wasm.panache_page_file_put_on(
+      this._handleFor(this.#panache), clip, character._handleFor(this.#panache)));
+  }
+
+  free(): void {
+    this.#panache._module.wasm.panache_page_file_free(this.#file);
+    this.#file = 0;
+  }
+}
+
+const kHumanJoints = 21, kPartNumbers = 7;
+
+/** A skinned mesh of a person, moved by `parts`. */
+export interface Body {
+  /** [21][3], [21][4]: the bind pose of the vertices. */
+  bindPositions: Float32Array;
+  bindRotations: Float32Array;
+  /** [vertices][3], metres. */
+  positions: Float32Array;
+  normals: Float32Array;
+  /** [vertices][4]: human joints, and their weights, which sum to 255. */
+  joints: Uint8Array;
+  weights: Uint8Array;
+  /** [vertices]: 255 where the body has its second colour. */
+  accents: Uint8Array;
+  /** [triangles][3]: vertex indices. */
+  triangles: Uint16Array;
+}
+
+/** A source of motion and the character that it moves. */
+export class Player {
+  #panache: Panache; #player: number; #extension: string; #remover: Remover | null = null;
+
+  /** @internal */ constructor(panache: Panache, player: number, extension: string) {
+    this.#panache = panache;
+    this.#player = player;
+    this.#extension = extension;
+    panache._players.add(this);
+  }
+  /** @internal */ _useModel(): void {
+    this.#panache._module.use((arena) => arena.check(
+      this._wasm.panache_page_player_use_model(this._player, this.#panache._model())));
+  }
+  /** @internal */ protected get _panache() { return this.#panache; }
+  /** @internal */ protected get _wasm() { return this.#panache._module.wasm; }
+  /** @internal */ protected get _player() { return inUse(this.#player, 'player'); }
+
+  /** Like the methods of Character. */
+  setStrength(style: string, strength: number): void {
+    const index = styleIndex(this.#panache.styles, style);
+    checkFinite(strength, `strength of '${style}'`);
+    const at = this._wasm.panache_page_player_strengths(this._player);
+    this.#panache._module.floats(at, index + 1)[index] = strength;
+  }
+  setSide(style: string, side: Side): void {
+    const index = styleIndex(this.#panache.styles, style);
+    this._wasm.panache_page_player_set_side(
+      this._player, index, sideNumber(side, this.#panache.styles[index]));
+  }
+  /** Nobody in a model without persons. */
+  setPerson(person: Person, variety = 1): void {
+    const [seed, amount] = personNumbers(this.#panache._module, person, variety);
+    this._wasm.panache_page_player_set_person(this._player, seed, amount);
+  }
+  setShape(shape: Partial<Shape>): void {
+    this.#panache._module.use((arena) => arena.check(
+      this._wasm.panache_page_player_set_shape(this._player, writeShape(arena, shape))));
+  }
+  /** See StylizingOptions.gestureRate; 1 at first. */
+  setGestureRate(rate: number): void {
+    if (!(checkFinite(rate, 'gesture rate') >= 0 && rate <= 10)) {
+      throw unexpected('gesture rate', 'a number from 0 to 10', rate);
+    }
+    this._wasm.panache_page_player_set_gesture_rate(this._player, rate);
+  }
+  trigger(style: string, gesture = 0): void {
+    const index = styleIndex(this.#panache.styles, style);
+    checkTriggered(this._wasm.panache_page_player_trigger(
+      this._player, index, checkInteger(gesture, 'gesture')), this.#panache.styles[index], gesture);
+  }
+  /** Sets the model for setRemoved(); the motion continues. */
+  useRemover(remover: Remover): void {
+    this.#panache._module.use((arena) => arena.check(this._wasm.panache_page_player_use_remover(
+      this._player, removerHandle(this.#panache, remover))));
+    this.#remover = remover;
+  }
+  /** Removes a style of the remover from the input, including its tempo, before styles are added;
+   * null: none, the default. Eased in. Throws before useRemover(). */
+  setRemoved(style: string | null): void {
+    this._wasm.panache_page_player_set_removed(this._player, removedIndex(this.#remover, style, 'player'));
+  }
+  /** Initially 'steps'; the motion continues. */
+  setTiming(timing: Timing): void {
+    this._wasm.panache_page_player_set_timing(this._player, timingNumber(timing, 'timing'));
+  }
+  /** Advances by `seconds`, at most a tenth per call. */
+  step(seconds: number): void { this._wasm.panache_page_player_step(this._player, seconds); }
+  /** Steps a copy `count` times with the current pose, to measure the speed. */
+  measure(count: number): void { this._wasm.panache_page_player_measure(this._player, count); }
+
+  /** Input seconds per output second: the tempo of the style, 1 where the timing is off. */
+  get rate(): number { return this._wasm.panache_page_player_rate(this._player); }
+  /** How much of the styles' change is applied: 1 if the input resembles the training motion; 0 if
+   * it does not, so that styles only add their mean posture. */
+  get gate(): number { return this._wasm.panache_page_player_gate(this._player); }
+  /** Probability that each foot is planted: left, right. */
+  get contacts(): number[] {
+    return [0, 1].map((foot) => this._wasm.panache_page_player_contact(this._player, foot));
+  }
+  /** View, [joints][7]: local rotation x y z w and translation, in the file's units and axes. */
+  pose(which: 'input' | 'styled', joints: number): Float32Array {
+    const at = this._wasm.panache_page_player_pose(this._player, which === 'styled' ? 1 : 0);
+    return this.#panache._module.floats(at, joints * kPartNumbers);
+  }
+  /** View, [21][7]: world position (metres, Y up) and orientation x y z w of each human joint. The
+   * orientation is relative to the T-pose: left arm along +x, legs along -y, feet along +z. */
+  parts(which: 'input' | 'styled'): Float32Array {
+    const at = this._wasm.panache_page_player_parts(this._player, which === 'styled' ? 1 : 0);
+    return this.#panache._module.floats(at, kHumanJoints * kPartNumbers);
+  }
+  /** A body with the rig's proportions; takes some tenths of a second the first time. */
+  get body(): Body { return this.#makeBody(0); }
+  /** The same with a third of the triangles, for machines without a graphics card. */
+  get coarseBody(): Body { return this.#makeBody(1); }
+  #makeBody(coarse: number): Body {
+    const { _module: module } = this.#panache;
+    return module.use((arena) => {
+      const at = arena.allocate(40);
+      this._wasm.panache_page_player_body(this._player, coarse, at);
+      const [vertices, corners, ...places] = module.words(at, 10);
+      const floats = (i: number, count: number) => module.copy(Float32Array, places[i], count);
+      const bytes = (i: number, count: number) => module.copy(Uint8Array, places[i], count);
+      return {
+        bindPositions: floats(0, 3 * kHumanJoints), bindRotations: floats(1, 4 * kHumanJoints),
+        positions: floats(2, 3 * vertices), normals: floats(3, 3 * vertices),
+        joints: bytes(4, 4 * vertices), weights: bytes(5, 4 * vertices), accents: bytes(6, vertices),
+        triangles: module.copy(Uint16Array, places[7], corners),
+      };
+    });
+  }
+  /** world = scale * rotate(toYUp, point in the file) - {0, floor, 0}. */
+  get placement(): { toYUp: number[]; scale: number; floor: number } {
+    return this.#panache._module.use((arena) => {
+      const at = arena.allocate(24);
+      this._wasm.panache_page_player_placement(this._player, at);
+      const [x, y, z, w, scale, floor] = this.#panache._module.floats(at, 6);
+      return { toYUp: [x, y, z, w], scale, floor };
+    });
+  }
+
+  /** A file with this extension (".bvh", ".glb", ".vrma", or that of the file played): the whole
+   * clip with the current settings, or the last seconds of a walk, at most 20. */
+  exportAs(extension: string, options: { which?: 'input' | 'styled'; seconds?: number } = {}): Uint8Array {
+    const { which = 'styled', seconds = Infinity } = options, { _module: module } = this.#panache;
+    return module.use((arena) => module.take(
+      this._wasm.panache_page_player_export(this._player, arena.text(extension),
+        arena.text(this.#extension), which === 'styled' ? 1 : 0, seconds)));
+  }
+
+  free(): void {
+    this.#panache._players.delete(this);
+    this._wasm.panache_page_player_free(this.#player);
+    this.#player = 0;
+  }
+}
+
+export class Walk extends Player {
+  /** `speed`: m/s, 0 to 4.5; `turn`: rad/s, positive to the left. Eased. */
+  steer(speed: number, turn: number): void {
+    this._wasm.panache_page_player_steer(this._player, speed, turn);
+  }
+}
+
+export class Playback extends Player {
+  /** Jumps to `seconds` after the first frame; takes effect at the next step. */
+  seek(seconds: number): void { this._wasm.panache_page_player_seek(this._player, seconds); }
+  /** Sets the strength of a style over time instead of a constant one: keyframes, interpolated
+   * linearly, with ascending seconds after the first frame. Empty: constant again. */
+  setTrack(style: string, keys: readonly (readonly [seconds: number, strength: number])[]): void {
+    const index = styleIndex(this._panache.styles, style);
+    checkKeys(keys, style);
+    this._panache._module.use((arena) => this._wasm.panache_page_player_set_track(
+      this._player, index, arena.copy(Float64Array.from(keys.flat())), keys.length));
+  }
+  set loop(loop: boolean) { this._wasm.panache_page_player_loop(this._player, loop ? 1 : 0); }
+  get seconds(): number { return this._wasm.panache_page_player_seconds(this._player); }
+  /** The first frame that plays, from 0; earlier frames of the file are a reference pose. */
+  get firstFrame(): number { return this._wasm.panache_page_player_first_frame(this._player); }
+}
