@@ -67,7 +67,7 @@ void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Sta
     watch(body, f, time, feet_[f]);
     held_[f] = standing * feet_[f].rest;
   }
-  const float gain = fresh ? 1.0f : (1 - flight) * filter_gain(time.output, kHeightSeconds);
+  const float gain = time.first ? 1.0f : (1 - flight) * filter_gain(time.output, kHeightSeconds);
   if (!(held_[0] > 0 || held_[1] > 0)) return move_hips(raised, gain, change);
 
   for (int f = 0; f < kFeet; ++f) {
@@ -103,7 +103,7 @@ void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Sta
     const float now = std::max(down, -way.y);  // Legs that are straight may stay so.
     drop = std::max(drop, held_[f] * (-(way.y + rise_of(f, origin + raised)) - now));
   }
-  move_hips(raised - drop, gain, change);
+  move_hips(raised - drop, fresh ? 1.0f : gain, change);
   for (int f = 0; f < kFeet; ++f) {
     const float up = rise_of(f, mid_hip(body).y + change.translation.y);
     if (!(held_[f] > 0) || up == 0) continue;
