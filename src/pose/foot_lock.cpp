@@ -32,7 +32,7 @@ constexpr float kFadeRate = 20;  // 1/s
 constexpr float kMaxGlide = 2;   // m/s; a faster foot is not about to stand.
 
 // A planted toe goes to the height of the input's, with this time constant: at half of it, joints
-// jump more often; held at the height where it landed, toes are 4 instead of 2 cm off.
+// jump more often; held at the height where it landed, walking toes are a centimetre further off.
 constexpr float kLevelSeconds = 0.1f;
 
 // A nearly straight leg follows only a share of changes of its length, or its knee would fly back

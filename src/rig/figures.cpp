@@ -80,7 +80,7 @@ constexpr int kFewestOfPerson = 11;
 class FigureFinder {
  public:
   FigureFinder(const Clip& clip, std::span<const JointPositions> poses)
-      : clip_(clip), poses_(poses), joints_(clip.skeleton.joints), size_(joints_.size(), 1) {
+      : poses_(poses), joints_(clip.skeleton.joints), size_(joints_.size(), 1) {
     children_.resize(joints_.size());
     limbs_.resize(joints_.size());
     for (size_t j = joints_.size(); j-- > 0;) {
@@ -190,7 +190,6 @@ class FigureFinder {
     return some;
   }
 
-  const Clip& clip_;
   std::span<const JointPositions> poses_;
   const std::vector<Joint>& joints_;
   std::vector<int> size_;   // [joints] with those below.
