@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "option_table.h"
+#include "manual_page.h"
+#include "messages.h"
 #include "program.h"
 #include "verbs.h"
 
@@ -26,9 +27,10 @@ constexpr Program kPanache = {
 
 int main(int argc, char** argv) {
   using namespace panache::cli;
-  if (argc == 3 && argv[1] == std::string_view(kPrintReference)) {
+  if (argc == 2 && argv[1] == std::string_view(kPrintManualPage)) {
     int unused = 0;
-    return print_reference(*make_app(kPanache, unused), argv[2], PANACHE_VERSION);
+    print(manual_page(*make_app(kPanache, unused), PANACHE_VERSION));
+    return kDone;
   }
   return run_program(kPanache, argc, argv);
 }

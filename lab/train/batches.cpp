@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "pose/mirror.h"
+#include "pose/features.h"
 
 namespace panache {
 

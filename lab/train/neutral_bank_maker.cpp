@@ -12,7 +12,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "learn/neutral_bank.h"
-#include "pose/mirror.h"
+#include "pose/features.h"
 #include "train/network.h"
 
 namespace panache {

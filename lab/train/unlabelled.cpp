@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "learn/samples.h"
-#include "pose/mirror.h"
+#include "pose/features.h"
 
 namespace panache {
 namespace {

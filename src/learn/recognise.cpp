@@ -7,7 +7,7 @@
 #include "base/elementary.h"
 #include "learn/samples.h"
 #include "net/rows.h"
-#include "pose/mirror.h"
+#include "pose/features.h"
 #include "style/model/model.h"
 
 namespace panache {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "pose/mirror.h"
+#include "pose/features.h"
 
 namespace panache {
 namespace {

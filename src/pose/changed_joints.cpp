@@ -9,7 +9,7 @@ void put_joints(int first, const HeadingBody& body, const BodyChange& change,
                 HumanPositions& out) noexcept {
   for (int j = first; j < kHumanJoints; ++j) {
     const int parent = kHumanParent[j];
-    out[j] = out[parent] + rotate(change.rotations[parent], body.ways[j]);
+    out[j] = out[parent] + rotate(change.rotations[parent], body.offsets[j]);
   }
 }
 
@@ -23,16 +23,16 @@ Vec3 mid_hip(const BodyPose& body) noexcept {
 
 HeadingBody::HeadingBody(const BodyPose& body) noexcept
     : BodyPose(body), to_heading(rotation_y(-body.facing)) {
-  ways[0] = rotate(to_heading, joints[0] - mid_hip(body));
+  offsets[0] = rotate(to_heading, joints[0] - mid_hip(body));
   for (int j = 1; j < kHumanJoints; ++j) {
-    ways[j] = rotate(to_heading, joints[j] - joints[kHumanParent[j]]);
+    offsets[j] = rotate(to_heading, joints[j] - joints[kHumanParent[j]]);
   }
 }
 
 void changed_joints(const HeadingBody& body, const BodyChange& change,
                     HumanPositions& out) noexcept {
   // The hips turn about the middle of the hip joints, as in Rig::write.
-  out[0] = rotate(change.rotations[0], body.ways[0]);
+  out[0] = rotate(change.rotations[0], body.offsets[0]);
   put_joints(1, body, change, out);
 }
 

@@ -13,7 +13,7 @@ Vec3 mid_hip(const BodyPose& body) noexcept;  // World.
 struct HeadingBody : BodyPose {
   HeadingBody(const BodyPose& body) noexcept;  // Implicit, because it is the same body.
   Quat to_heading;                             // From the world's axes.
-  HumanPositions ways;  // From each joint's parent to it; hips: from the origin.
+  HumanPositions offsets;  // From each joint's parent to it; hips: from the origin.
 };
 
 // Positions of the user's joints with the rotations of `change`, in the heading frame of the input,

@@ -1,5 +1,5 @@
 #pragma once
-// Detects planted feet in motion.
+// Contacts: planted feet in motion, and hands with each other or the body.
 
 #include <algorithm>
 #include <array>
@@ -40,5 +40,19 @@ std::vector<FootContacts> detect_contacts(const std::vector<HumanPositions>& wor
 // toe in the input (metres above the floor): a foot in the air is not planted, whatever the rest of
 // the body does.
 float planted_near_floor(float probability, float toe_height) noexcept;
+
+// How much hands keep contacts, 0 (none) to 1 (fully).
+struct HandHolds {
+  std::array<float, 2> by_body{};  // Left and right wrist with the body.
+  float together = 0;              // With each other.
+};
+
+// The contact of wrists at a distance in arm lengths: 1 if the hands touch or hold one thing, 0 if
+// they are unrelated, smooth between.
+float hands_nearness(float arm_lengths) noexcept;
+
+// Moves the vector from the left to the right wrist towards `between` by the share `amount`, of
+// which the right wrist moves `of_right`, both 0 to 1.
+void bring_together(Vec3 between, float amount, float of_right, Vec3& left, Vec3& right) noexcept;
 
 }  // namespace panache

@@ -1,9 +1,11 @@
 #pragma once
-// The networks' input: the features of one instant, and the window of instants.
+// The networks' input: the features of one instant, their mirror image, the window of instants, and
+// a whole pose of the canonical skeleton packed as features.
 
 #include <array>
 #include <span>
 
+#include "base/quat.h"
 #include "pose/root_pose.h"
 
 namespace panache {
@@ -40,5 +42,31 @@ void write_root_features(const RootPose& before, const RootPose& now, double sec
 HumanPositions read_positions(std::span<const float> pose) noexcept;
 RootPose move_root(const RootPose& before, std::span<const float, kRootFeatures> root,
                    double seconds) noexcept;
+
+// Mirrors a pose's features, left for right, in place. numbers[pose_feature_count(layout)]
+void mirror_pose(PoseLayout layout, std::span<float> numbers) noexcept;
+// The same for any number of consecutive poses.
+void mirror_poses(PoseLayout layout, std::span<float> numbers) noexcept;
+
+// A whole pose of the canonical skeleton, packed in PoseLayout::rotations.
+struct AbsolutePose {
+  // The hips' in the body frame, all others relative to the parent. Packed as the first two columns
+  // of the matrix.
+  std::array<Quat, kHumanJoints> rotations;
+  float hips_height = 0;                    // Metres.
+  std::array<float, kRootFeatures> root{};  // See RootNumber.
+
+  static constexpr int kSize = pose_feature_count(PoseLayout::rotations);  // Numbers when packed.
+};
+
+// Packs the fields in the order above.
+void pack(const AbsolutePose& pose, std::span<float, AbsolutePose::kSize> out) noexcept;
+// Columns need not be orthonormal: outputs of networks are only nearly so.
+AbsolutePose unpack_pose(std::span<const float, AbsolutePose::kSize> numbers) noexcept;
+
+// Converts rotations from a common frame to the parents' frames.
+std::array<Quat, kHumanJoints> to_local(const std::array<Quat, kHumanJoints>& frames) noexcept;
+// Writes six numbers per rotation and returns the end. out[6 * kHumanJoints]
+float* write_rotations(const std::array<Quat, kHumanJoints>& rotations, float* out) noexcept;
 
 }  // namespace panache

@@ -7,7 +7,6 @@
 #include "base/elementary.h"
 #include "pose/changed_joints.h"
 #include "pose/limb.h"
-#include "pose/two_bone.h"
 
 namespace panache {
 namespace {
@@ -49,12 +48,12 @@ constexpr float kKneeRate = 12;  // Radians/s.
 // The position of the ankle instead of `target`.
 Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target) {
   const float leg = length(knee - hip) + length(ankle - knee);
-  const Vec3 way = target - hip;
-  const float before = length(ankle - hip), wanted = length(way);
+  const Vec3 offset = target - hip;
+  const float before = length(ankle - hip), wanted = length(offset);
   if (!(leg > 0 && wanted > 0)) return target;
   const float share = std::min(1.0f, std::min(before, wanted) / leg);
   const float follow = std::min(1.0f, std::sqrt(1 - share * share) / kBent);
-  return hip + way * ((before + follow * (wanted - before)) / wanted);
+  return hip + offset * ((before + follow * (wanted - before)) / wanted);
 }
 
 // How far a planted foot is pulled back to its anchor, at `pull` from it.
@@ -66,12 +65,12 @@ Vec3 held(Vec3 pull) {
   return pull * ((kHeld + kGives * (1 - exponential((kHeld - far) / kGives))) / far);
 }
 
-// How far a planted foot creeps in `seconds` towards a point at `way` from it.
-Vec3 crept(Vec3 way, float seconds) {
-  const float far = length(way);
+// How far a planted foot creeps in `seconds` towards a point at `offset` from it.
+Vec3 crept(Vec3 offset, float seconds) {
+  const float far = length(offset);
   if (!(far > kSettled && std::isfinite(far))) return {};
   const float eased = (far - kSettled) * filter_gain(seconds, kCreepSeconds);
-  return way * (std::min(kCreep * seconds, eased) / far);
+  return offset * (std::min(kCreep * seconds, eased) / far);
 }
 
 }  // namespace
@@ -82,8 +81,8 @@ void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float gro
   const bool first = foot.state == State::unseen;
   const Vec3 last_offset = foot.offset, last_toe = first ? toe : foot.toe;
   foot.toe = toe;
-  const Vec3 way = input - foot.input;
-  const float moved = !first && time.input > 0 ? std::hypot(way.x, way.z) / time.input : 0.0f;
+  const Vec3 offset = input - foot.input;
+  const float moved = !first && time.input > 0 ? std::hypot(offset.x, offset.z) / time.input : 0.0f;
   foot.input = input;
   if (first || contact < kRelease || moved > kLeaves) foot.state = State::free;
   const Vec3 velocity = seconds > 0 ? (toe - last_toe) / seconds + foot.speed : Vec3{};
@@ -154,7 +153,7 @@ void FootLock::step(const BodyPose& body, const HumanPositions& joints,
     const Vec3 target =
         easy_target(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift);
     const float firm = std::min(1.0f, length(shift) / kFirmShift);
-    const Vec3 ahead = knee_way(joints[ankle], joints[index(kToes[f])]);
+    const Vec3 ahead = knee_direction(joints[ankle], joints[index(kToes[f])]);
     const TwoBoneTurn turn = two_bone_ik(
         joints[hip], joints[knee], joints[ankle], target,
         bend(foot, joints[hip], joints[knee], joints[ankle], ahead, firm, seconds.output));

@@ -55,9 +55,9 @@ class PoseHistory {
     return age <= head_ ? head_ - age : head_ - age + kCapacity;
   }
   const Entry& newest(int age) const noexcept { return ring_[index_of(age)]; }
-  std::span<const float> features(int place) const noexcept {
+  std::span<const float> features(int slot) const noexcept {
     const size_t count = stored_features(layout_);
-    return std::span(features_).subspan(place * count, count);
+    return std::span(features_).subspan(slot * count, count);
   }
 
   // A pose closer than this to the one before is replaced by the next, so that any rate fits: the

@@ -1,9 +1,11 @@
 #pragma once
-// Moves an arm or a leg, two straight parts, by target positions of its middle and end.
+// Moves an arm or a leg, two straight parts, by target positions of its middle and end: two-bone
+// inverse kinematics by the law of cosines.
 
 #include <algorithm>
 #include <array>
 
+#include "base/quat.h"
 #include "pose/contacts.h"
 #include "rig/body_pose.h"
 
@@ -49,7 +51,7 @@ inline LimbJoints leg_joints(int side) noexcept {
 }
 
 // The direction of a knee: that of the foot, or ahead if the foot points down. Heading frame.
-Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept;
+Vec3 knee_direction(Vec3 ankle, Vec3 toe) noexcept;
 
 // The moves of elbow or knee, and of wrist or ankle; metres, in the space of changed_joints().
 struct LimbMove {
@@ -74,5 +76,28 @@ void move_limb(const LimbJoints& limb, const LimbMove& move, HumanPositions& joi
                BodyChange& change) noexcept;
 // The same for the joints only.
 void move_joints(const LimbJoints& limb, const LimbMove& move, HumanPositions& joints) noexcept;
+
+struct TwoBoneTurn {
+  Quat upper, lower;  // To be applied on top of the upper and the lower joint's world rotation.
+};
+// `root`, `middle`, `end`: hip, knee and ankle (or shoulder, elbow, wrist), in any common space. A
+// target beyond reach is approached as far as the chain's length allows. `bend`: the side of the
+// line from root to end to which the middle goes, of any length; it turns along with that line.
+TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept;
+// The resulting positions of middle and end. `out`: the side of the line from root to target to
+// which the middle goes, unit, at a right angle to that line. A chain without length stays.
+struct TwoBonePositions {
+  Vec3 middle, end;
+};
+TwoBonePositions two_bone_positions(Vec3 root, Vec3 middle, Vec3 end, Vec3 target,
+                                    Vec3 out) noexcept;
+TwoBoneTurn two_bone_turn(Vec3 root, Vec3 middle, Vec3 end, const TwoBonePositions& to) noexcept;
+// The side of the middle, or that of `hint` if the chain is straight. `firm`: a middle nearer than
+// twice this to the line from root to end (metres) moves towards the hint, the nearer the more; up
+// to two thirds of `firm` on the wrong side do not make the chain bend that way.
+Vec3 bend_of(Vec3 root, Vec3 middle, Vec3 end, Vec3 hint, float firm = 0) noexcept;
+
+// The part of `v` at right angles to `axis`, which has length 1.
+inline Vec3 across(Vec3 v, Vec3 axis) noexcept { return v - axis * dot(v, axis); }
 
 }  // namespace panache

@@ -1,10 +1,11 @@
 #pragma once
 // A style's change of one pose as named fields, and packed in the order of network outputs and of
-// the scales in model files.
+// the scales in model files; and how it sets the feet on the ground.
 
 #include <array>
 #include <span>
 
+#include "pose/contacts.h"
 #include "rig/humanoid.h"
 
 namespace panache {
@@ -27,5 +28,15 @@ StyleDelta unpack(std::span<const float, StyleDelta::kSize> numbers) noexcept;
 
 // The same change of the mirrored body.
 StyleDelta mirrored(const StyleDelta& delta) noexcept;
+
+// A style's change of a standing foot; zero keeps it.
+struct Stance {
+  float heel = 0;                   // How far the heel is lifted about the toes, radians.
+  std::array<float, kFeet> turn{};  // About +y, radians.
+};
+
+// `mean`: the style's mean change. Only styles on tiptoe lift heels: in other styles a small mean
+// lift comes from their steps.
+Stance stance_of(const StyleDelta& mean) noexcept;
 
 }  // namespace panache

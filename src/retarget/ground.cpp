@@ -7,7 +7,7 @@
 #include "base/easing.h"
 #include "base/elementary.h"
 #include "pose/changed_joints.h"
-#include "pose/two_bone.h"
+#include "pose/limb.h"
 
 namespace panache {
 namespace {

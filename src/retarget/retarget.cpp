@@ -10,7 +10,6 @@
 #include "clip/clip.h"
 #include "pose/changed_joints.h"
 #include "pose/contacts.h"
-#include "pose/hand_contacts.h"
 #include "retarget/further_joints.h"
 #include "retarget/ground.h"
 #include "retarget/reference_pose.h"

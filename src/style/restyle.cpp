@@ -19,7 +19,7 @@ class TrackedStyles final : public ChangeSource {
       : tracks_(tracks), strengths_(model->styles().size()), networks_(model, options) {}
 
   PoseLayout layout() const override { return networks_.layout(); }
-  AskedChange ask(const Seen& seen) noexcept override {
+  AskedChange ask(const SourceInput& seen) noexcept override {
     std::ranges::fill(strengths_, 0.0f);
     for (const StrengthTrack& track : tracks_) strengths_[track.style] += track.at(seen.time.clip);
     networks_.set_strengths(strengths_);
@@ -101,9 +101,9 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig,
     }
   }
   // No round of a loop would repeat gestures at random.
-  StylizerOptions how = options.stylizer;
-  if (loop) how.gesture_rate = 0;
-  const auto make_source = [&] { return std::make_unique<TrackedStyles>(model, tracks, how); };
+  StylizerOptions styling = options.stylizer;
+  if (loop) styling.gesture_rate = 0;
+  const auto make_source = [&] { return std::make_unique<TrackedStyles>(model, tracks, styling); };
   return play_clip(clip, rig, make_source, loop, options, progress);
 }
 

@@ -29,17 +29,17 @@ void Stepper::forget() noexcept {
 NextPose Stepper::see_next(ConstPose next, double seconds) noexcept {
   reset();
   observer_.observe(next, 0);
-  const NextPose seen = {observer_.now().world.positions, static_cast<float>(seconds)};
+  const NextPose second = {observer_.now().world.positions, static_cast<float>(seconds)};
   observer_.reset();
-  return seen;
+  return second;
 }
 
 AskedChange Stepper::step(ConstPose in, const StepMoment& moment, ChangeSource& source, Pose out,
                           StageClock* clock) noexcept {
   std::array<float, InputWindow::kMaxNumbers> room;
-  const Seen seen = take_in(in, moment, room, clock);
-  const AskedChange asked = source.ask(seen);
-  give_out(asked, seen, out);
+  const SourceInput input = take_in(in, moment, room, clock);
+  const AskedChange asked = source.ask(input);
+  give_out(asked, input, out);
   return asked;
 }
 
@@ -53,8 +53,8 @@ GesturePlayer::Ground Stepper::ground() const noexcept {
           flight_, smooth_step((window_.ground_speed() - kWalks) / (kRuns - kWalks))};
 }
 
-Seen Stepper::take_in(ConstPose in, const StepMoment& moment, std::span<float> room,
-                      StageClock* clock) noexcept {
+SourceInput Stepper::take_in(ConstPose in, const StepMoment& moment, std::span<float> room,
+                             StageClock* clock) noexcept {
   const double input_seconds = bounded_seconds(moment.input_seconds);
   const double output_seconds = bounded_seconds(moment.output_seconds);
   if (output_seconds > Observer::kMaxGap) observer_.reset();
@@ -70,10 +70,10 @@ Seen Stepper::take_in(ConstPose in, const StepMoment& moment, std::span<float> r
   return {window, &now.body_frame, time, ground(), clock};
 }
 
-void Stepper::give_out(const AskedChange& asked, const Seen& seen, Pose out) noexcept {
-  stages_.step(asked, options_, flight_, observer_, window_, seen.time, seen.clock);
+void Stepper::give_out(const AskedChange& asked, const SourceInput& input, Pose out) noexcept {
+  stages_.step(asked, options_, flight_, observer_, window_, input.time, input.clock);
   observer_.write(stages_.change(), out);
-  tell(seen.clock, kWriteStage);
+  tell(input.clock, kWriteStage);
   started_ = true;
 }
 

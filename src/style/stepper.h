@@ -41,9 +41,9 @@ class Stepper {
 
   // The two parts of a step, before and after asking the source. `room`: memory for the window,
   // InputWindow::kMaxNumbers.
-  Seen take_in(ConstPose in, const StepMoment& moment, std::span<float> room,
-               StageClock* clock) noexcept;
-  void give_out(const AskedChange& asked, const Seen& seen, Pose out) noexcept;
+  SourceInput take_in(ConstPose in, const StepMoment& moment, std::span<float> room,
+                      StageClock* clock) noexcept;
+  void give_out(const AskedChange& asked, const SourceInput& input, Pose out) noexcept;
 
   // At the last step; see Stylizer.
   double rate() const noexcept { return stages_.rate(); }

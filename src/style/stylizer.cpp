@@ -93,7 +93,7 @@ void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
   while (!members.empty()) {
     const size_t count = count_together(members);
     std::array<std::array<float, InputWindow::kMaxNumbers>, kRowsAtOnce> windows;
-    std::array<Seen, kRowsAtOnce> seen;
+    std::array<SourceInput, kRowsAtOnce> inputs;
     std::array<StyleNetworks::Pass, StyleNetworks::kMaxPasses * kRowsAtOnce> passes;
     size_t pass_count = 0;
     std::array<FetchLater, kRowsAtOnce> fetches;
@@ -102,15 +102,15 @@ void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
       if (count + i < members.size()) fetches[i].begin(members[count + i], add_memory);
       // The next character's history arrives from a far cache in time.
       if (i + 1 < members.size()) members[i + 1].character->stepper_.fetch_poses(seconds);
-      seen[i] = character->stepper_.take_in(in, {seconds, seconds}, windows[i], &fetches[i]);
+      inputs[i] = character->stepper_.take_in(in, {seconds, seconds}, windows[i], &fetches[i]);
       character->source_.set_strengths(strengths);
       pass_count += character->source_.begin(
-          seen[i], std::span(passes).subspan(pass_count).first<StyleNetworks::kMaxPasses>());
+          inputs[i], std::span(passes).subspan(pass_count).first<StyleNetworks::kMaxPasses>());
     }
     StyleNetworks::forward_all(std::span(passes).first(pass_count));
     for (size_t i = 0; i < count; ++i) {
       Stylizer& character = *members[i].character;
-      character.stepper_.give_out(character.source_.finish(seen[i]), seen[i], members[i].out);
+      character.stepper_.give_out(character.source_.finish(inputs[i]), inputs[i], members[i].out);
     }
     members = members.subspan(count);
   }

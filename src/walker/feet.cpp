@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/easing.h"
-#include "pose/two_bone.h"
+#include "pose/limb.h"
 
 namespace panache {
 namespace {

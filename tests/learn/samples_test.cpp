@@ -5,7 +5,7 @@
 #include "known_recipes.h"
 #include "learn/disturbance.h"
 #include "make_takes.h"
-#include "pose/mirror.h"
+#include "pose/features.h"
 #include "style/stages/pose_change.h"
 
 namespace panache {

@@ -1,4 +1,4 @@
-#include "pose/absolute_pose.h"
+#include "pose/features.h"
 
 #include <gtest/gtest.h>
 

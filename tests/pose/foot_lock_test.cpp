@@ -1,6 +1,6 @@
 #include "pose/changed_joints.h"
 #include "pose/foot_lock.h"
-#include "pose/two_bone.h"
+#include "pose/limb.h"
 
 #include <algorithm>
 #include <cmath>

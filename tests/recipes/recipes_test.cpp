@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "make_clip.h"
-#include "pose/absolute_pose.h"
+#include "pose/features.h"
 #include "pose/observer.h"
 
 namespace panache {

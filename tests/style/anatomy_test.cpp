@@ -5,7 +5,7 @@
 #include "make_clip.h"
 #include "pose/changed_joints.h"
 #include "rig/posed_rig.h"
-#include "style/stages/balance.h"
+#include "style/stages/lean.h"
 
 namespace panache {
 namespace {

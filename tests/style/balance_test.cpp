@@ -1,4 +1,4 @@
-#include "style/stages/balance.h"
+#include "style/stages/lean.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Ground that is not flat: a style that shortens the path shortens the climb alike.
 
-#include "style/stages/climb.h"
+#include "style/stages/root_motion.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "style/stages/fold.h"
+#include "style/stages/lean.h"
 
 #include <cmath>
 

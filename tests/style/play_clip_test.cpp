@@ -13,7 +13,7 @@ namespace {
 class Tempo final : public ChangeSource {
  public:
   explicit Tempo(double rate) { asked_.log_rate = static_cast<float>(std::log(rate)); }
-  AskedChange ask(const Seen&) override { return asked_; }
+  AskedChange ask(const SourceInput&) override { return asked_; }
 
  private:
   AskedChange asked_;
@@ -46,7 +46,7 @@ TEST(PlayClip, with_any_source_a_body_lands_on_whole_frames) {
 class Witness final : public ChangeSource {
  public:
   explicit Witness(std::vector<StepTime>& times) : times_(times) {}
-  AskedChange ask(const Seen& seen) override {
+  AskedChange ask(const SourceInput& seen) override {
     times_.push_back(seen.time);
     AskedChange nothing;
     nothing.amount = 0;

@@ -1,4 +1,4 @@
-#include "style/play/play_head.h"
+#include "style/play/playback.h"
 
 #include <cmath>
 

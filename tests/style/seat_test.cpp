@@ -1,6 +1,6 @@
 // A seat is a seat: what holds the body up besides its feet keeps hips and legs where they are.
 
-#include "style/stages/seat.h"
+#include "style/stages/input_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include "make_clip.h"
 #include "make_learnt.h"
 #include "make_model.h"
-#include "pose/mirror.h"
+#include "pose/features.h"
 #include "style/networks/networks.h"
 #include "style/restyle.h"
 

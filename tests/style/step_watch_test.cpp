@@ -1,6 +1,6 @@
 // A style's tempo is that of its steps: who stands keeps the input's time.
 
-#include "style/stages/step_watch.h"
+#include "style/stages/input_watch.h"
 
 #include <cmath>
 

@@ -102,7 +102,7 @@ TEST_F(StylizerTest, a_style_changes_the_pose_and_keeps_it_whole) {
 }
 
 TEST_F(StylizerTest, a_clock_is_told_of_each_stage_once_a_step_and_in_order) {
-  class Seen final : public StageClock {
+  class SourceInput final : public StageClock {
    public:
     void done(Stage stage) noexcept override { stages.push_back(stage); }
     std::vector<Stage> stages;

@@ -24,8 +24,8 @@ class WithAmount final : public ChangeSource {
     amount_ = std::min(1.0f, 4 * total);
   }
 
-  AskedChange ask(const Seen& seen) override {
-    AskedChange asked = source_->ask(seen);
+  AskedChange ask(const SourceInput& input) override {
+    AskedChange asked = source_->ask(input);
     asked.amount = amount_;
     return asked;
   }

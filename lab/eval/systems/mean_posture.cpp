@@ -15,7 +15,7 @@ class Constant final : public ChangeSource {
   Constant(const AskedChange& asked, const Shape& shape) : asked_(asked), shape_(shape) {
     asked_.shape = &shape_;
   }
-  AskedChange ask(const Seen&) override { return asked_; }
+  AskedChange ask(const SourceInput&) override { return asked_; }
 
  private:
   AskedChange asked_;

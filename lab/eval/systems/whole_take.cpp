@@ -17,12 +17,12 @@ WholeTakeSource::WholeTakeSource(const Take& take, double begin, std::vector<Sty
   contacts_ = detect_contacts(world, kTakeRate);
 }
 
-AskedChange WholeTakeSource::ask(const Seen& seen) {
+AskedChange WholeTakeSource::ask(const SourceInput& input) {
   AskedChange out;
   if (changes_.empty()) return out;
   const float last = static_cast<float>(changes_.size() - 1);
   const float at =
-      std::clamp(static_cast<float>((seen.time.clip - begin_) * kTakeRate), 0.0f, last);
+      std::clamp(static_cast<float>((input.time.clip - begin_) * kTakeRate), 0.0f, last);
   const size_t a = static_cast<size_t>(at), b = std::min(a + 1, changes_.size() - 1);
   const float t = at - static_cast<float>(a);
   std::array<float, StyleDelta::kSize> change;

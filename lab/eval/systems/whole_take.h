@@ -14,7 +14,7 @@ class WholeTakeSource : public ChangeSource {
   // nothing changes. The foot contacts are those of the changed body; the tempo stays.
   WholeTakeSource(const Take& take, double begin, std::vector<StyleDelta> changes);
 
-  AskedChange ask(const Seen& seen) override;
+  AskedChange ask(const SourceInput& input) override;
 
  private:
   double begin_;

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "pose/absolute_pose.h"
-#include "pose/mirror.h"
+#include "pose/features.h"
 #include "recipes/recipe.h"
 #include "rig/canonical_body.h"
 

@@ -123,9 +123,9 @@ float Gesture::seconds() const noexcept { return static_cast<float>(points_.size
 GesturePose Gesture::at(float time) const noexcept {
   GesturePose out;
   if (!(time > 0 && time < seconds())) return out;
-  const float place = time * kRate;
-  const int last = static_cast<int>(place);
-  const float x = place - static_cast<float>(last), y = 1 - x;
+  const float knot = time * kRate;
+  const int last = static_cast<int>(knot);
+  const float x = knot - static_cast<float>(last), y = 1 - x;
   const std::array<float, 4> weights = {y * y * y / 6, (4 - 6 * x * x + 3 * x * x * x) / 6,
                                         (4 - 6 * y * y + 3 * y * y * y) / 6, x * x * x / 6};
   for (int i = 0; i < 4; ++i) {

@@ -103,9 +103,9 @@ std::string torso_text(const Axis& axis) {
 }
 
 // Where a hand goes, seen from the shoulder of an arm that hangs.
-enum class Way { none, over_head, up, ahead, back, out, across };
+enum class Direction { none, over_head, up, ahead, back, out, across };
 struct Hand {
-  Way way = Way::none;
+  Direction direction = Direction::none;
   float size = 0;
 };
 Hand hand_of(const std::vector<GesturePose>& points, HumanJoint upper, HumanJoint lower,
@@ -118,29 +118,29 @@ Hand hand_of(const std::vector<GesturePose>& points, HumanJoint upper, HumanJoin
   };
   const Vec3 v = course_of(points, at).peak;
   const float out = left ? v.x : -v.x, sideways = std::max(std::abs(out), std::abs(v.z));
-  Hand hand{Way::over_head, length(v) / kReach};
+  Hand hand{Direction::over_head, length(v) / kReach};
   if (v.y > 1.2f) return hand;  // Above the shoulder.
   if (v.y > sideways) {
-    hand.way = Way::up;
+    hand.direction = Direction::up;
   } else if (std::abs(v.z) >= std::abs(out)) {
-    hand.way = v.z > 0 ? Way::ahead : Way::back;
+    hand.direction = v.z > 0 ? Direction::ahead : Direction::back;
   } else {
-    hand.way = out > 0 ? Way::out : Way::across;
+    hand.direction = out > 0 ? Direction::out : Direction::across;
   }
   return hand;
 }
 
-std::string arm_text(Way way, const std::string& arm, const std::string& hand) {
-  switch (way) {
-    case Way::over_head:
+std::string arm_text(Direction direction, const std::string& arm, const std::string& hand) {
+  switch (direction) {
+    case Direction::over_head:
       return "throws " + arm + " up";
-    case Way::up:
+    case Direction::up:
       return "raises " + hand;
-    case Way::ahead:
+    case Direction::ahead:
       return "swings " + arm + " forward";
-    case Way::back:
+    case Direction::back:
       return "swings " + arm + " back";
-    case Way::out:
+    case Direction::out:
       return "spreads " + arm;
     default:
       return "swings " + arm + " across";
@@ -152,13 +152,13 @@ void add_arms(const std::vector<GesturePose>& points, std::vector<Movement>& out
   const Hand right = hand_of(points, right_upper_arm, right_lower_arm, false);
   const auto [small, large] = std::minmax(left.size, right.size);
   if (small > kAlike * large) {
-    const bool alike = left.way == right.way;
+    const bool alike = left.direction == right.direction;
     out.push_back(
-        {alike ? arm_text(left.way, "both arms", "both hands") : "moves both arms", large});
+        {alike ? arm_text(left.direction, "both arms", "both hands") : "moves both arms", large});
     return;
   }
-  out.push_back({arm_text(left.way, "the left arm", "the left hand"), left.size});
-  out.push_back({arm_text(right.way, "the right arm", "the right hand"), right.size});
+  out.push_back({arm_text(left.direction, "the left arm", "the left hand"), left.size});
+  out.push_back({arm_text(right.direction, "the right arm", "the right hand"), right.size});
 }
 
 void add_torso_and_head(const std::vector<GesturePose>& points, std::vector<Movement>& out) {

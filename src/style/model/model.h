@@ -16,7 +16,7 @@
 #include "recipes/recipe.h"
 #include "style/model/gesture.h"
 #include "style/model/person.h"
-#include "style/model/stance.h"
+#include "pose/style_delta.h"
 
 namespace panache {
 

@@ -12,7 +12,7 @@
 #include "base/result.h"
 #include "net/layer.h"
 #include "net/safetensors.h"
-#include "style/model/stance.h"
+#include "pose/style_delta.h"
 
 namespace panache {
 

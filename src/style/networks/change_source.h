@@ -12,7 +12,7 @@
 namespace panache {
 
 // One instant of the input, valid for one call.
-struct Seen {
+struct SourceInput {
   // As PoseHistory::window() gives it, in the source's layout.
   std::span<const float> window;
   const HumanPositions* body = nullptr;  // Canonical joints in the body frame, metres.
@@ -33,7 +33,7 @@ class ChangeSource {
   // The layout of its windows.
   virtual PoseLayout layout() const { return PoseLayout::positions; }
   // The change at the next instant. Its pointers are valid until the next call.
-  virtual AskedChange ask(const Seen& seen) = 0;
+  virtual AskedChange ask(const SourceInput& input) = 0;
 };
 
 }  // namespace panache

@@ -48,32 +48,33 @@ bool NetworkSource::trigger(int style, int gesture) noexcept {
   return true;
 }
 
-void NetworkSource::ease_strengths(const Seen& seen) noexcept {
-  if (seen.time.first) gestures_.stop();
-  strengths_.step(wanted_, sides_, shape_, seen.time);
+void NetworkSource::ease_strengths(const SourceInput& input) noexcept {
+  if (input.time.first) gestures_.stop();
+  strengths_.step(wanted_, sides_, shape_, input.time);
   networks_.set_strengths(strengths_.now(), strengths_.sides());
   if (model().persons()) {
-    networks_.ease_person(person_, seen.time.gain(options_.ease_seconds));
+    networks_.ease_person(person_, input.time.gain(options_.ease_seconds));
   }
-  tell(seen.clock, Stage::strengths);
+  tell(input.clock, Stage::strengths);
 }
 
 size_t NetworkSource::begin(
-    const Seen& seen, std::span<StyleNetworks::Pass, StyleNetworks::kMaxPasses> passes) noexcept {
-  ease_strengths(seen);
-  return networks_.passes(seen.window, seen.time.gain(kGateSeconds), passes);
+    const SourceInput& input,
+    std::span<StyleNetworks::Pass, StyleNetworks::kMaxPasses> passes) noexcept {
+  ease_strengths(input);
+  return networks_.passes(input.window, input.time.gain(kGateSeconds), passes);
 }
 
-AskedChange NetworkSource::finish(const Seen& seen) noexcept {
+AskedChange NetworkSource::finish(const SourceInput& input) noexcept {
   AskedChange asked;
-  asked.delta = model().recipe().to_change(networks_.pose(), *seen.body, seen.root());
+  asked.delta = model().recipe().to_change(networks_.pose(), *input.body, input.root());
   asked.log_rate = networks_.log_rate();
   asked.contacts = networks_.contact();
   asked.gate = networks_.gate();
   asked.stance = networks_.stance();
   if (options_.gesture_rate > 0 || !gestures_.rests()) {
     gestures_.step(model(), strengths_.now(), strengths_.sides(), options_.gesture_rate,
-                   seen.ground, seen.time);
+                   input.ground, input.time);
   }
   asked.gesture = gestures_.now();
   asked.shape = &strengths_.shape();
@@ -81,11 +82,11 @@ AskedChange NetworkSource::finish(const Seen& seen) noexcept {
   return asked;
 }
 
-AskedChange NetworkSource::ask(const Seen& seen) noexcept {
-  ease_strengths(seen);
-  networks_.forward(seen.window, seen.time.gain(kGateSeconds));
-  tell(seen.clock, Stage::networks);
-  return finish(seen);
+AskedChange NetworkSource::ask(const SourceInput& input) noexcept {
+  ease_strengths(input);
+  networks_.forward(input.window, input.time.gain(kGateSeconds));
+  tell(input.clock, Stage::networks);
+  return finish(input);
 }
 
 }  // namespace panache

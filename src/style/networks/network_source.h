@@ -25,12 +25,12 @@ class NetworkSource final : public ChangeSource {
   void reset_gestures() noexcept { gestures_.reset(options_.gesture_seed); }
 
   PoseLayout layout() const override { return model().layout(); }
-  AskedChange ask(const Seen& seen) noexcept override;
+  AskedChange ask(const SourceInput& input) noexcept override;
   // The two parts of ask(); between them, a crowd's networks are evaluated together. Writes the
   // passes to evaluate and returns their number.
-  size_t begin(const Seen& seen,
+  size_t begin(const SourceInput& input,
                std::span<StyleNetworks::Pass, StyleNetworks::kMaxPasses> passes) noexcept;
-  AskedChange finish(const Seen& seen) noexcept;
+  AskedChange finish(const SourceInput& input) noexcept;
 
   // At the last instant; see Stylizer.
   float amount() const noexcept;
@@ -50,7 +50,7 @@ class NetworkSource final : public ChangeSource {
   }
 
  private:
-  void ease_strengths(const Seen& seen) noexcept;
+  void ease_strengths(const SourceInput& input) noexcept;
 
   struct {
     float gesture_rate;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "pose/mirror.h"
+#include "pose/features.h"
 #include "style/networks/networks_scratch.h"
 #include "style/stages/strengths.h"
 

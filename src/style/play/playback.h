@@ -1,18 +1,52 @@
 #pragma once
 // Plays a live input at the tempo of a style: the recent input, a prediction of the next, and a
-// play head between them.
+// play head between them, which lags or leads within bounds.
 
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "style/play/input_ring.h"
-#include "style/play/play_head.h"
 #include "style/play/pose_predictor.h"
 #include "style/stages/flight.h"
 #include "style/stages/root_motion.h"
 
 namespace panache {
+
+// A style plays its input faster or slower than it arrives. Live, the head can lag by `max_lag`
+// and, if input is predicted, lead by `max_lead`; near a bound the rate eases to 1. Without a style
+// it returns to the newest input.
+class PlayHead {
+ public:
+  // Seconds, both 0 or more.
+  PlayHead(double max_lag, double max_lead) : max_lag_(max_lag), max_lead_(max_lead) {}
+
+  void reset() noexcept { ahead_ = 0; }
+  // Advances by `seconds` of the clock; `rate`: the style's input seconds per second, ignored
+  // unless `styled`. Returns the input seconds that the head moved.
+  double advance(double seconds, double rate, bool styled) noexcept;
+  // Jumps by `seconds` in the input.
+  void jump(double seconds) noexcept { ahead_ += seconds; }
+
+  // Seconds from the newest input to the head; negative: it lags.
+  double ahead() const noexcept { return ahead_; }
+  // How freely a style can still play faster (slower) than its input, 0 to 1.
+  double room_ahead() const noexcept;
+  double room_behind() const noexcept;
+
+  // Calls visit(member) for everything that tells one head from another with its bounds.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.ahead_);
+  }
+
+ private:
+  // The rate eases over this time before a bound, at most half the distance of the bounds. Seconds.
+  double ease() const noexcept;
+
+  double max_lag_, max_lead_;
+  double ahead_ = 0;
+};
 
 struct PlaybackOptions {
   // How far the play head may be behind the input, and how far ahead of it, seconds: 0 to

@@ -56,9 +56,9 @@ Result<Restyled> restyle_without(const Clip& clip, const Rig& rig, const Removal
                                  const std::vector<StrengthTrack>& tracks,
                                  const RestyleOptions& options,
                                  const std::function<void(double)>& progress) {
-  const StylizerOptions& how = options.stylizer;
+  const StylizerOptions& styling = options.stylizer;
   const bool again =
-      asks_for_a_style(tracks) || how.person != PersonNumbers{} || how.shape.energy != 1;
+      asks_for_a_style(tracks) || styling.person != PersonNumbers{} || styling.shape.energy != 1;
   const auto part = [&](double begin) {
     return [&progress, begin, again](double done) {
       if (progress) progress(again ? begin + done / 2 : done);

@@ -103,7 +103,7 @@ class Limits {
   }
   Vec3 in_heading(Vec3 world) const { return rotate(body_.to_heading, world); }
   // The direction from one joint to another in the input, heading frame.
-  Vec3 way(HumanJoint from, HumanJoint to) const {
+  Vec3 direction_between(HumanJoint from, HumanJoint to) const {
     return normalized(in_heading(at(to) - at(from)));
   }
   void ease(float& share, float wanted) const {
@@ -138,7 +138,8 @@ class Limits {
   // How far the thigh or the knee of a leg is beyond both its limit and the input; radians.
   float leg_beyond(const Base& base, size_t side) const {
     const HumanJoint upper = kUpperLegs[side], lower = kLowerLegs[side];
-    const Vec3 upper_way = way(upper, lower), lower_way = way(lower, kAnkles[side]);
+    const Vec3 upper_direction = direction_between(upper, lower),
+               lower_direction = direction_between(lower, kAnkles[side]);
     const auto beyond = [&](Vec3 thigh, Vec3 shin) {
       const Vec3 out = {thigh.x * kOutward[side], thigh.y, thigh.z};
       const Bend bend = unsafe_bend_of(thigh, shin, kKneeHinge);
@@ -147,21 +148,23 @@ class Limits {
                  ? std::max(swing_beyond(out, kHipSwings), knee)
                  : knee;
     };
-    const float out = beyond(changed(base, upper, upper_way), changed(base, lower, lower_way));
+    const float out =
+        beyond(changed(base, upper, upper_direction), changed(base, lower, lower_direction));
     if (!(out > 0)) return out;
-    return out -
-           std::max(0.0f, beyond(seen_in(base.frame, upper_way), seen_in(base.frame, lower_way)));
+    return out - std::max(0.0f, beyond(seen_in(base.frame, upper_direction),
+                                       seen_in(base.frame, lower_direction)));
   }
 
   // The same for a hinge between two limbs, from the joint of the lower one on.
-  void keep_hinge(const Base& base, HumanJoint upper, Vec3 upper_way, HumanJoint lower,
-                  Vec3 lower_way, const Hinge& hinge, HumanJoint last, float& share) {
-    const Vec3 above = changed(base, upper, upper_way), below = changed(base, lower, lower_way);
+  void keep_hinge(const Base& base, HumanJoint upper, Vec3 upper_direction, HumanJoint lower,
+                  Vec3 lower_direction, const Hinge& hinge, HumanJoint last, float& share) {
+    const Vec3 above = changed(base, upper, upper_direction),
+               below = changed(base, lower, lower_direction);
     const Bend out = unsafe_bend_of(above, below, hinge);
     float wanted = 0;
     if (out.wrong > 0 || out.angle > hinge.max - kSoft) {
-      const Bend in =
-          bend_of(seen_in(base.frame, upper_way), seen_in(base.frame, lower_way), hinge);
+      const Bend in = bend_of(seen_in(base.frame, upper_direction),
+                              seen_in(base.frame, lower_direction), hinge);
       const float wrong = std::max(0.0f, out.wrong - in.wrong);
       wanted = std::max(share_back(out.angle - hinge.max, in.angle - hinge.max),
                         wrong / (wrong + hinge.back));
@@ -172,24 +175,24 @@ class Limits {
     // itself bend the hinge the wrong way, to the same side as there. The side of a limb that is
     // raised is not defined.
     constexpr float kRaised = 0.5f, kLow = -0.2f;  // Heights of the upper limb's unit direction.
-    const Vec3 before = seen_in(base.frame, upper_way);
+    const Vec3 before = seen_in(base.frame, upper_direction);
     const float low = smooth_step((kRaised - std::max(above.y, before.y)) / (kRaised - kLow));
     const Quat side =
         rotation_between(kHanging, above) * conjugate(rotation_between(kHanging, before));
-    const Vec3 bent = changed(base, upper, lower_way);
-    const Vec3 aside = rotate(side, seen_in(base.frame, lower_way));
+    const Vec3 bent = changed(base, upper, lower_direction);
+    const Vec3 aside = rotate(side, seen_in(base.frame, lower_direction));
     turn(base, below, normalized(lerp(bent, aside, low), bent), share, lower, last);
   }
 
   // `local`: the hand's direction in its own axes; zero if unknown.
-  void keep_wrist(const Base& base, HumanJoint lower, Vec3 lower_way, HumanJoint hand,
+  void keep_wrist(const Base& base, HumanJoint lower, Vec3 lower_direction, HumanJoint hand,
                   Quat hand_rotation, Vec3 local, float& share) {
     if (local == Vec3{}) return keep_unknown_wrist(lower, hand, share);
     const Vec3 hand_way = in_heading(rotate(hand_rotation, local));
-    const Vec3 above = changed(base, lower, lower_way), now = changed(base, hand, hand_way);
+    const Vec3 above = changed(base, lower, lower_direction), now = changed(base, hand, hand_way);
     float wanted = 0;
     if (dot(above, now) < kSafeWrist) {
-      const float out = angle_between(above, now), in = angle_between(lower_way, hand_way);
+      const float out = angle_between(above, now), in = angle_between(lower_direction, hand_way);
       wanted = share_back(out - kWrist - kRangeMargin, in - kWrist - kRangeMargin);
     }
     ease(share, wanted);
@@ -243,23 +246,27 @@ void Anatomy::step(const HeadingBody& body, const Rig& rig, const StepTime& time
   Limits limits(body, time, change);
   const Base below = limits.hips_base(), above = limits.chest_base();
   limits.keep_swing(below, chest, above.frame.y, kTorsoSwings, 0, spine, right_hand, torso_);
-  limits.keep_swing(above, neck, limits.way(neck, head), kHeadSwings, 0, neck, head, neck_);
+  limits.keep_swing(above, neck, limits.direction_between(neck, head), kHeadSwings, 0, neck, head,
+                    neck_);
   for (size_t side = 0; side < 2; ++side) {
     const HumanJoint upper = kUpperArms[side], lower = kLowerArms[side], hand = kHands[side];
-    const Vec3 upper_way = limits.way(upper, lower), lower_way = limits.way(lower, hand);
-    limits.keep_swing(above, upper, upper_way, kShoulderSwings, kOutward[side], upper, hand,
+    const Vec3 upper_direction = limits.direction_between(upper, lower),
+               lower_direction = limits.direction_between(lower, hand);
+    limits.keep_swing(above, upper, upper_direction, kShoulderSwings, kOutward[side], upper, hand,
                       shoulders_[side]);
-    limits.keep_hinge(above, upper, upper_way, lower, lower_way, kElbowHinge, hand, elbows_[side]);
-    limits.keep_wrist(above, lower, lower_way, hand, body.hands[side],
+    limits.keep_hinge(above, upper, upper_direction, lower, lower_direction, kElbowHinge, hand,
+                      elbows_[side]);
+    limits.keep_wrist(above, lower, lower_direction, hand, body.hands[side],
                       rig.hand_direction(static_cast<int>(side)), wrists_[side]);
   }
   for (size_t side = 0; side < 2; ++side) {
     const HumanJoint upper = kUpperLegs[side], lower = kLowerLegs[side];
-    const Vec3 upper_way = limits.way(upper, lower), lower_way = limits.way(lower, kAnkles[side]);
-    limits.hold_swing(below, upper, upper_way, kHipSwings, kOutward[side], upper, kToes[side],
+    const Vec3 upper_direction = limits.direction_between(upper, lower),
+               lower_direction = limits.direction_between(lower, kAnkles[side]);
+    limits.hold_swing(below, upper, upper_direction, kHipSwings, kOutward[side], upper, kToes[side],
                       hips_[side]);
-    limits.keep_hinge(below, upper, upper_way, lower, lower_way, kKneeHinge, kToes[side],
-                      knees_[side]);
+    limits.keep_hinge(below, upper, upper_direction, lower, lower_direction, kKneeHinge,
+                      kToes[side], knees_[side]);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "style/stages/arms_clear.h"
 
+#include "pose/limb.h"
+
 namespace panache {
 namespace {
 
@@ -48,7 +50,7 @@ float size_of(const LimbMove& move) { return length(move.middle) + length(move.e
 
 struct ArmPush {
   LimbMove move;
-  float together = 0;  // Metres: of the wrist along Pusher::way_of_both().
+  float together = 0;  // Metres: of the wrist along Pusher::direction_of_both().
 };
 
 class Pusher {
@@ -61,12 +63,12 @@ class Pusher {
         trunk_(trunk),
         input_trunk_(trunk_of(body.joints)),
         input_across_(across_shoulders(body.joints)) {
-    if (together > 0) way_of_both_ = find_way_of_both();
+    if (together > 0) direction_of_both_ = find_direction_of_both();
   }
 
   // From the torso's axis to the middle between the hands in the input, unit: the direction for
   // hands that hold each other; 0 if they do not.
-  Vec3 way_of_both() const { return way_of_both_; }
+  Vec3 direction_of_both() const { return direction_of_both_; }
 
   ArmPush push_of(const HumanPositions& joints, int side) const {
     const LimbJoints arm = arm_joints(side);
@@ -77,35 +79,35 @@ class Pusher {
     for (size_t c = 0; c < trunk_.size(); ++c) {
       const float reach = trunk_[c].radius + kForearm;
       const bool far = length(from_line(middle, trunk_[c].from, trunk_[c].to)) > half + reach;
-      for (const float place : kArmPoints) {
+      for (const float share : kArmPoints) {
         // An elbow may have passed through to the other side.
-        const bool elbow = c == 0 && place < kElbow;
+        const bool elbow = c == 0 && share < kElbow;
         if (far && !elbow) continue;
-        const Vec3 point = lerp(joints[arm.middle], joints[arm.end], place);
-        const Vec3 way = from_line(point, trunk_[c].from, trunk_[c].to);
+        const Vec3 point = lerp(joints[arm.middle], joints[arm.end], share);
+        const Vec3 offset = from_line(point, trunk_[c].from, trunk_[c].to);
         if (elbow) {
-          push_elbow(out, side, place, way, reach, push.move.middle);
+          push_elbow(out, side, share, offset, reach, push.move.middle);
           continue;
         }
-        if (!(length(way) < reach)) continue;
-        const Vec3 was = before(arm, place, c);
+        if (!(length(offset) < reach)) continue;
+        const Vec3 was = before(arm, share, c);
         const float kept = std::min(reach, length(was)) - kFreeDepth;
-        const Vec3 go = push_out(way, normalized(carried(c, was)), kept);
+        const Vec3 go = push_out(offset, normalized(carried(c, was)), kept);
         const float depth = length(go);
         if (!(depth > 0)) continue;
-        raise_push(push.move.middle, go / depth, depth * std::clamp(2 * (1 - place), 0.0f, 1.0f));
+        raise_push(push.move.middle, go / depth, depth * std::clamp(2 * (1 - share), 0.0f, 1.0f));
         raise_push(push.move.end, go / depth, depth);
         // That path may be long even if the shortest path out is short.
-        if (c > 0 || way_of_both_ == Vec3{}) continue;
-        push.together =
-            std::max(push.together, std::min(push_across(way, way_of_both_, kept), 2 * depth));
+        if (c > 0 || direction_of_both_ == Vec3{}) continue;
+        push.together = std::max(
+            push.together, std::min(push_across(offset, direction_of_both_, kept), 2 * depth));
       }
     }
     return push;
   }
 
  private:
-  Vec3 find_way_of_both() const {
+  Vec3 find_direction_of_both() const {
     const auto at = [&](HumanJoint joint) { return body_.joints[index(joint)]; };
     const Capsule& torso = input_trunk_[0];
     const Vec3 up = normalized(torso.to - torso.from);
@@ -114,24 +116,24 @@ class Pusher {
     return normalized(carried(0, hands - up * dot(hands, up) + ahead * 0.2f));
   }
   // Pushes along the shoulders (`out`, unit, to its own side), to its position in the input.
-  void push_elbow(Vec3 out, int side, float place, Vec3 way, float reach, Vec3& push) const {
-    if (!(push_across(way, out, reach) > 0)) return;
-    const Vec3 was = before(arm_joints(side), place, 0);
+  void push_elbow(Vec3 out, int side, float share, Vec3 offset, float reach, Vec3& push) const {
+    if (!(push_across(offset, out, reach) > 0)) return;
+    const Vec3 was = before(arm_joints(side), share, 0);
     const float own = dot(was, input_across_) * (side == 0 ? 1.0f : -1.0f);
     const float kept = (std::min(reach, length(was)) - kFreeDepth) * smooth_step(own / kOwnSide);
-    if (kept > 0) raise_push(push, out, push_across(way, out, kept));
+    if (kept > 0) raise_push(push, out, push_across(offset, out, kept));
   }
   // From a capsule to a point of a forearm in the input, world.
-  Vec3 before(const LimbJoints& arm, float place, size_t capsule) const {
+  Vec3 before(const LimbJoints& arm, float share, size_t capsule) const {
     const Capsule& was = input_trunk_[capsule];
-    const Vec3 point = lerp(body_.joints[arm.middle], body_.joints[arm.end], place);
+    const Vec3 point = lerp(body_.joints[arm.middle], body_.joints[arm.end], share);
     return from_line(point, was.from, was.to);
   }
 
   // Applies the change to a vector from a capsule in the input, world.
-  Vec3 carried(size_t capsule, Vec3 way) const {
+  Vec3 carried(size_t capsule, Vec3 offset) const {
     const Quat turn = change_.rotations[index(capsule == 0 ? chest : head)];
-    return rotate(turn, rotate(body_.to_heading, way));
+    return rotate(turn, rotate(body_.to_heading, offset));
   }
 
   const HeadingBody& body_;
@@ -139,7 +141,7 @@ class Pusher {
   const TrunkCapsules& trunk_;
   TrunkCapsules input_trunk_;  // World.
   Vec3 input_across_;          // World.
-  Vec3 way_of_both_;           // Heading frame.
+  Vec3 direction_of_both_;     // Heading frame.
 };
 
 }  // namespace
@@ -156,7 +158,7 @@ void ArmsClear::step(const HeadingBody& body, std::array<float, 2> amounts, cons
     const float largest = size_of(pushes[0].move) + size_of(pushes[1].move);
     if (largest == 0) break;
     pushed = true;
-    const Vec3 both = pusher.way_of_both() * std::max(pushes[0].together, pushes[1].together);
+    const Vec3 both = pusher.direction_of_both() * std::max(pushes[0].together, pushes[1].together);
     for (int side = 0; side < 2; ++side) {
       const LimbJoints arm = arm_joints(side);
       LimbMove push = pushes[side].move;
@@ -174,6 +176,42 @@ void ArmsClear::step(const HeadingBody& body, std::array<float, 2> amounts, cons
   }
   move_eased({arm_joints(0), arm_joints(1)}, pushed ? &moved : nullptr, amounts, time, moves_,
              joints, change);
+}
+
+namespace {
+
+// Radians/s. With 5, a few more joints jump where an elbow arrives late; with 8, elbows jump a
+// quarter more often; with 4, hands miss each other by more.
+constexpr float kRate = 6;
+
+constexpr std::array<HumanJoint, 6> kArmJoints = {kUpperArms[0], kLowerArms[0], kHands[0],
+                                                  kUpperArms[1], kLowerArms[1], kHands[1]};
+
+}  // namespace
+
+ArmRotations arm_rotations(const BodyChange& change) noexcept {
+  ArmRotations rotations;
+  for (size_t i = 0; i < rotations.size(); ++i) {
+    rotations[i] = change.rotations[index(kArmJoints[i])];
+  }
+  return rotations;
+}
+
+void SteadyArms::step(const ArmRotations& before, const StepTime& time,
+                      BodyChange& change) noexcept {
+  const float max = kRate * time.output;
+  for (size_t i = 0; i < before.size(); ++i) {
+    Quat &now = change.rotations[index(kArmJoints[i])], &last = corrections_[i];
+    const Quat wanted = now == before[i] ? Quat{} : normalized(now * conjugate(before[i]));
+    const Vec3 turn = wanted == last ? Vec3{} : log_rotation(wanted * conjugate(last));
+    const float far = length(turn);
+    if (time.first || far <= max) {
+      last = wanted;
+      continue;
+    }
+    last = normalized(exp_rotation(turn * (max / far)) * last);
+    now = normalized(last * before[i]);
+  }
 }
 
 }  // namespace panache

@@ -1,8 +1,7 @@
 #include "style/stages/change_stages.h"
 
-#include "style/stages/add_gesture.h"
-#include "style/stages/balance.h"
-#include "style/stages/fold.h"
+#include "style/stages/gesture_player.h"
+#include "style/stages/lean.h"
 #include "style/stages/shape.h"
 
 namespace panache {
@@ -118,7 +117,7 @@ void ChangeStages::reset() noexcept {
 void ChangeStages::step(const AskedChange& asked, const StageOptions& options, float flight,
                         const Observer& observer, const InputWindow& window, const StepTime& time,
                         StageClock* clock) noexcept {
-  StageWork work{asked, options, flight, observer, window, time, change_};
+  StageWork work{{asked, options, flight, observer, window, time}, change_};
   auto number = static_cast<size_t>(Stage::first_of_row);
   row_.each([&](auto& stage) {
     carry_out(stage, work);

@@ -9,7 +9,7 @@
 #include "style/stages/anatomy.h"
 #include "style/stages/arms_clear.h"
 #include "style/stages/energy.h"
-#include "style/stages/fall.h"
+#include "style/stages/flight.h"
 #include "style/stages/filter.h"
 #include "style/stages/floor.h"
 #include "style/stages/foot_stance.h"
@@ -17,20 +17,17 @@
 #include "style/stages/held_feet.h"
 #include "style/stages/legs_apart.h"
 #include "style/stages/root_motion.h"
-#include "style/stages/seat.h"
+#include "style/stages/input_watch.h"
 #include "style/stages/shaping.h"
 #include "style/stages/stage_clock.h"
-#include "style/stages/stage_facts.h"
-#include "style/stages/stage_row.h"
 #include "style/stages/stage_work.h"
-#include "style/stages/steady_arms.h"
-#include "style/stages/step_watch.h"
+#include "style/stages/stage_row.h"
 
 namespace panache {
 
 // The stages without memory.
-struct Gestures : NoMemory {};  // add_gesture.h
-struct Balance : NoMemory {};   // fold.h and balance.h
+struct Gestures : NoMemory {};  // gesture_player.h
+struct Balance : NoMemory {};   // lean.h
 
 // All stages in the order of a step; memory, reset, state and names for timing follow from it. A
 // new stage needs a step(StageWork&), or an overload of carry_out() in change_stages.cpp that

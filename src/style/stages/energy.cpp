@@ -29,10 +29,10 @@ constexpr std::array<Limb, 5> kParts = {{{neck, head},
 
 // The chest in the heading frame: x along the shoulders, y along the spine.
 Quat chest_of(const HeadingBody& body) {
-  const auto& ways = body.ways;
-  const Vec3 up = normalized(ways[index(chest)] + ways[index(neck)], {0, 1, 0});
-  const Vec3 across = ways[index(left_shoulder)] + ways[index(left_upper_arm)] -
-                      ways[index(right_shoulder)] - ways[index(right_upper_arm)];
+  const auto& offsets = body.offsets;
+  const Vec3 up = normalized(offsets[index(chest)] + offsets[index(neck)], {0, 1, 0});
+  const Vec3 across = offsets[index(left_shoulder)] + offsets[index(left_upper_arm)] -
+                      offsets[index(right_shoulder)] - offsets[index(right_upper_arm)];
   const Vec3 ahead = normalized(cross(across, up), {0, 0, 1});
   return from_axes(cross(up, ahead), up, ahead);
 }
@@ -71,10 +71,10 @@ void Energy::step(const HeadingBody& body, float energy, float share, const Step
 
   for (size_t l = 0; l < kLimbs; ++l) {
     const auto [joint, end] = kParts[l];
-    const Vec3 way = normalized(body.ways[index(end)], {0, -1, 0});
-    limbs_[l] += (way - limbs_[l]) * gain;
-    const Vec3 mean = normalized(limbs_[l], way);
-    const Quat limb = added_turn(log_rotation(rotation_between(mean, way)), amount);
+    const Vec3 direction = normalized(body.offsets[index(end)], {0, -1, 0});
+    limbs_[l] += (direction - limbs_[l]) * gain;
+    const Vec3 mean = normalized(limbs_[l], direction);
+    const Quat limb = added_turn(log_rotation(rotation_between(mean, direction)), amount);
     add(joint, limb);
     if (end == head || end == left_hand || end == right_hand) add(end, limb);
   }

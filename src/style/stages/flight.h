@@ -1,11 +1,13 @@
 #pragma once
-// Detects when the body is in the air. It falls at its input's tempo, not the style's: see
+// Detects when the body is in the air, where it falls as its input does, at its input's tempo: see
 // Stylizer::rate().
 
 #include <array>
 #include <cstddef>
 
+#include "rig/body_pose.h"
 #include "rig/humanoid.h"
+#include "style/stages/step_time.h"
 
 namespace panache {
 
@@ -58,6 +60,25 @@ class FlightWatch {
   std::array<Flight, 12> flights_{};        // A ring of the last seconds' flights.
   size_t newest_ = 0;                       // The newest of them; `open_`: it is
   bool open_ = false;                       // still in progress.
+};
+
+// In the air, a style's change of the height keeps its value at take-off, so that the body rises
+// and falls like its input; on the ground the height returns to the style's.
+class FreeFall {
+ public:
+  void reset() noexcept { *this = {}; }
+  // `flight`: see FlightWatch::amount(). Adjusts the height of `change`.
+  void step(float flight, const StepTime& time, BodyChange& change) noexcept;
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.wanted_), visit(self.held_);
+  }
+
+ private:
+  float wanted_ = 0;  // Height at the last step, before it was adjusted, metres,
+  float held_ = 0;    // and the adjustment.
 };
 
 }  // namespace panache

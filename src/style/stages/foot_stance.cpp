@@ -6,7 +6,6 @@
 #include "base/easing.h"
 #include "pose/changed_joints.h"
 #include "pose/limb.h"
-#include "pose/two_bone.h"
 
 namespace panache {
 namespace {
@@ -76,7 +75,7 @@ void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Sta
     const float min = std::min(0.0f, stance.turn[f]), max = std::max(0.0f, stance.turn[f]);
     const float yaw = angle_about({0, 1, 0}, foot);
     const Quat turn = rotation_y(std::clamp(yaw, min - kFreeTurn, max + kFreeTurn));
-    Vec3 ahead = body.ways[toe];
+    Vec3 ahead = body.offsets[toe];
     ahead.y = 0;
     const Vec3 side = cross({0, 1, 0}, normalized(ahead, {0, 0, 1}));
     const float tilt = angle_about(side, rotation_y(-yaw) * foot);
@@ -96,19 +95,19 @@ void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Sta
   for (int f = 0; f < kFeet; ++f) {
     const Vec3 hip = joints[index(kUpperLegs[f])], knee = joints[index(kLowerLegs[f])];
     const Vec3 ankle = joints[index(kAnkles[f])];
-    const Vec3 way = ankle - hip;
+    const Vec3 leg_line = ankle - hip;
     const float leg = kReach * (length(knee - hip) + length(ankle - knee));
-    const float aside = way.x * way.x + way.z * way.z;
+    const float aside = leg_line.x * leg_line.x + leg_line.z * leg_line.z;
     const float down = std::sqrt(std::max(0.0f, leg * leg - aside));
-    const float now = std::max(down, -way.y);  // Legs that are straight may stay so.
-    drop = std::max(drop, held_[f] * (-(way.y + rise_of(f, origin + raised)) - now));
+    const float now = std::max(down, -leg_line.y);  // Legs that are straight may stay so.
+    drop = std::max(drop, held_[f] * (-(leg_line.y + rise_of(f, origin + raised)) - now));
   }
   move_hips(raised - drop, fresh ? 1.0f : gain, change);
   for (int f = 0; f < kFeet; ++f) {
     const float up = rise_of(f, mid_hip(body).y + change.translation.y);
     if (!(held_[f] > 0) || up == 0) continue;
     const LimbJoints leg = leg_joints(f);
-    const Vec3 ankle = joints[leg.end], ahead = knee_way(ankle, joints[index(kToes[f])]);
+    const Vec3 ankle = joints[leg.end], ahead = knee_direction(ankle, joints[index(kToes[f])]);
     turn_limb(leg, ankle + Vec3{0, up, 0},
               bend_of(joints[leg.root], joints[leg.middle], ankle, ahead, kFirm), joints, change);
   }

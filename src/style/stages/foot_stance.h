@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "pose/changed_joints.h"
-#include "style/model/stance.h"
+#include "pose/style_delta.h"
 #include "style/stages/step_time.h"
 
 namespace panache {

@@ -1,11 +1,14 @@
 #pragma once
-// Plays gestures, triggered or at random.
+// Plays gestures, triggered or at random, and adds them to the style's change.
 
 #include <cstdint>
 #include <span>
 
 #include "base/random.h"
+#include "pose/changed_joints.h"
+#include "style/model/gesture.h"
 #include "style/model/model.h"
+#include "style/stages/shape.h"
 #include "style/stages/step_time.h"
 
 namespace panache {
@@ -70,5 +73,14 @@ class GesturePlayer {
   float due_ = -1;      // Mean intervals until the next random one; negative: not drawn yet.
   bool begun_ = false;  // Whether a random one has been drawn.
 };
+
+// Applies `gesture` to the upper body and hips of `change`, weighted per region by `shape`. Legs
+// keep ankles and feet in place, or lift them in a hop.
+void add_gesture(const GesturePose& gesture, const Shape& shape, const HeadingBody& body,
+                 BodyChange& change) noexcept;
+
+// How far a gesture lifts both feet, metres, and whether that takes them off the floor, 0 to 1.
+float gesture_lift(const GesturePose& gesture, const Shape& shape) noexcept;
+float share_lifted(float lift) noexcept;
 
 }  // namespace panache

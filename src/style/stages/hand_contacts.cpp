@@ -53,8 +53,8 @@ float nearness(float value, float near, float far) {
 
 // How much an arm hangs down along the torso, 0 to 1. `up`: along the torso, unit.
 float hangs(const HumanPositions& joints, int side, Vec3 up) {
-  const Vec3 way = normalized(joints[index(kHands[side])] - joints[index(kUpperArms[side])]);
-  return 1 - nearness(-dot(way, up), kAway, kDown);
+  const Vec3 direction = normalized(joints[index(kHands[side])] - joints[index(kUpperArms[side])]);
+  return 1 - nearness(-dot(direction, up), kAway, kDown);
 }
 
 float arm_length(const HumanPositions& joints, int side) {
@@ -63,11 +63,11 @@ float arm_length(const HumanPositions& joints, int side) {
          length(joints[index(kHands[side])] - elbow);
 }
 
-// `way` from a shoulder to a wrist; if it is shorter than `min`, lengthened to that along the
+// `arm`, from a shoulder to a wrist; if it is shorter than `min`, lengthened to that along the
 // unit vector `out`.
-Vec3 unfolded(Vec3 way, Vec3 out, float min) {
-  const float lacks = min * min - dot(way, way), along = dot(way, out);
-  return lacks > 0 ? way + out * (std::sqrt(along * along + lacks) - along) : way;
+Vec3 unfolded(Vec3 arm, Vec3 out, float min) {
+  const float lacks = min * min - dot(arm, arm), along = dot(arm, out);
+  return lacks > 0 ? arm + out * (std::sqrt(along * along + lacks) - along) : arm;
 }
 
 void ease(float& hold, float wanted, float take, float give) {
@@ -104,7 +104,7 @@ void HandContacts::watch(const BodyPose& body, float firmness, const StepTime& t
     const float reach = length(wrist - joints[index(kUpperArms[side])]);
     const float bent =
         nearness(reach / std::max(arm_length(joints, side), 1e-6f), kBent, kStraight);
-    const std::array<Vec3, 3> places = {
+    const std::array<Vec3, 3> offsets = {
         from_line(wrist, at(left_upper_leg) + up * kHipsUp, at(right_upper_leg) + up * kHipsUp),
         from_line(wrist, at(left_upper_leg), at(left_lower_leg)),
         from_line(wrist, at(right_upper_leg), at(right_lower_leg))};
@@ -113,15 +113,15 @@ void HandContacts::watch(const BodyPose& body, float firmness, const StepTime& t
       if (time.first) speed = 0;
       if (!time.first && seconds > 0) {
         const float now =
-            std::min(length(places[p] - places_[side][p]) / seconds, 4 * kPassingHand);
+            std::min(length(offsets[p] - offsets_[side][p]) / seconds, 4 * kPassingHand);
         speed += speed_gain * (now - speed);
       }
-      const float near = p == 0 ? bent * nearness(length(places[p]), kOnHips, kOffHips)
-                                : thighs[p - 1] * nearness(length(places[p]), kOnThigh, kOffThigh);
+      const float near = p == 0 ? bent * nearness(length(offsets[p]), kOnHips, kOffHips)
+                                : thighs[p - 1] * nearness(length(offsets[p]), kOnThigh, kOffThigh);
       ease(holds_[side][Part::hips + p],
            firmness * near * nearness(speed, kRestingHand, kPassingHand), rest, give);
     }
-    places_[side] = places;
+    offsets_[side] = offsets;
   }
 }
 
@@ -212,8 +212,8 @@ void HandContacts::step(const HeadingBody& body, float firmness, std::array<floa
     // Both hands follow the part that they touch, otherwise the chest.
     const Quat turn = nlerp(turned(chest), left.carrier, left.held * right.held);
     const Vec3 between = rotate(turn, right.input - left.input);
-    const Vec3 place = carried(chest, (left.input + right.input) * 0.5f);
-    const Vec3 stray = (left.wanted + right.wanted) * 0.5f - place;
+    const Vec3 middle = carried(chest, (left.input + right.input) * 0.5f);
+    const Vec3 stray = (left.wanted + right.wanted) * 0.5f - middle;
     const float free = (1 - left.held) * (1 - right.held);
     const Vec3 back = (softly_bounded(stray, kStray, kMaxStray) - stray) * (hands_ * free);
     const float of_right = (1.001f - right.held) / (2.002f - left.held - right.held);
@@ -234,8 +234,8 @@ void HandContacts::step(const HeadingBody& body, float firmness, std::array<floa
     const Vec3 input = carried(chest, wrist.input) - carried(chest, before(kUpperArms[side]));
     const float min = std::min(
         {kKeptFold * length(input), kFolded * arm_length(joints, side), length(wrist.now - root)});
-    const Vec3 way = wrist.now + shift - root;
-    reach(side, root + unfolded(way, normalized(input), min),
+    const Vec3 arm = wrist.now + shift - root;
+    reach(side, root + unfolded(arm, normalized(input), min),
           carried(chest, before(kLowerArms[side])), time, elbows_[side], joints, change);
     const int hand = index(kHands[side]);
     const Quat forearm = turned(kLowerArms[side]);
@@ -244,6 +244,34 @@ void HandContacts::step(const HeadingBody& body, float firmness, std::array<floa
     const Vec3 bounded = softly_bounded(bend, kWristTurn, 2 * kWristTurn);
     change.rotations[hand] = normalized(forearm * exp_rotation(bounded));
   }
+}
+
+namespace {
+
+// Cosines of the arm's turn at which the elbow no longer follows the style, and still fully does.
+constexpr float kFarTurn = 0, kNearTurn = 0.85f;
+constexpr float kElbowSeconds = 0.1f;  // Time constant of the elbow's side,
+constexpr float kElbowRate = 5;        // and how fast it turns about its arm at most, rad/s.
+
+}  // namespace
+
+void reach(int side, Vec3 target, Vec3 elbow, const StepTime& time, ArmSide& last,
+           HumanPositions& joints, BodyChange& change) noexcept {
+  const LimbJoints arm = arm_joints(side);
+  const Vec3 root = joints[arm.root], end = joints[arm.end];
+  const Vec3 from = normalized(end - root), to = normalized(target - root);
+  const Quat swing = rotation_between(from, to);
+  const float own = smooth_step((dot(from, to) - kFarTurn) / (kNearTurn - kFarTurn));
+  const Vec3 style = rotate(swing, normalized(bend_of(root, joints[arm.middle], end, arm.hint)));
+  const Vec3 input = normalized(bend_of(root, elbow, target, arm.hint));
+  const Vec3 wanted = normalized(lerp(input, style, own), input);
+  if (last.side == Vec3{}) last = {style, to};
+  const Vec3 carried = rotate(rotation_between(last.direction, to), last.side);
+  const Vec3 now = normalized(carried - to * dot(carried, to), style);
+  const float turn = arc_tangent(dot(cross(now, wanted), to), dot(now, wanted));
+  const float max = kElbowRate * time.output;
+  last = {rotate(axis_angle(to, std::clamp(turn * time.gain(kElbowSeconds), -max, max)), now), to};
+  aim_limb(arm, target, last.side, joints, change);
 }
 
 }  // namespace panache

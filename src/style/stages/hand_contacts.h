@@ -1,15 +1,28 @@
 #pragma once
-// Hands keep what they touch in the input.
+// Hands keep what they touch in the input: which they keep, where their wrists belong, and the side
+// of the elbow.
 
 #include <array>
 #include <cstdint>
 
 #include "pose/changed_joints.h"
-#include "pose/hand_contacts.h"
-#include "style/stages/reach.h"
+#include "pose/contacts.h"
 #include "style/stages/step_time.h"
 
 namespace panache {
+
+// The side of an elbow, and the direction from shoulder to wrist: unit vectors, heading frame; 0
+// without a contact.
+struct ArmSide {
+  Vec3 side, direction;
+};
+
+// Moves a wrist to `target`. The elbow keeps the style's side; the further the arm turns, the more
+// it takes that of `elbow`, its position in the input, because a large turn makes the style's side
+// arbitrary. `last` starts on the style's side, follows the arm, and turns about it towards the
+// chosen side. `joints`: changed_joints() with `change`; updates the arm.
+void reach(int side, Vec3 target, Vec3 elbow, const StepTime& time, ArmSide& last,
+           HumanPositions& joints, BodyChange& change) noexcept;
 
 // If a wrist is near the other wrist, the head, the hips or a thigh in the input, the arm keeps
 // that distance in the changed pose. A contact eases in and out with the distance in the input and
@@ -30,7 +43,7 @@ class HandContacts {
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.hands_), visit(self.holds_), visit(self.places_), visit(self.speeds_);
+    visit(self.hands_), visit(self.holds_), visit(self.offsets_), visit(self.speeds_);
     visit(self.elbows_), visit(self.moved_);
   }
 
@@ -48,7 +61,7 @@ class HandContacts {
   Holds holds_{};    // Other contacts, likewise.
   // Each wrist relative to hips, left and right thigh in the input, world, metres, at the last
   // step; and the speed of its change, m/s.
-  std::array<std::array<Vec3, 3>, 2> places_{};
+  std::array<std::array<Vec3, 3>, 2> offsets_{};
   std::array<std::array<float, 3>, 2> speeds_{};
   std::array<ArmSide, 2> elbows_{};
   // How far the style would move each wrist from the hips and thighs that it rests on, metres,

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "pose/limb.h"
-#include "style/stages/add_gesture.h"
+#include "style/stages/gesture_player.h"
 
 namespace panache {
 

@@ -27,7 +27,7 @@ constexpr std::array<std::array<float, 3>, 2> kPoints = {
 struct Part {
   Vec3 from, to;
   float radius;
-  Vec3 at(float place) const { return lerp(from, to, place); }
+  Vec3 at(float share) const { return lerp(from, to, share); }
   // The part that the other leg may meet.
   Part below_crotch() const { return radius == kThigh ? Part{at(kCrotch), to, radius} : *this; }
 };
@@ -44,9 +44,9 @@ Vec3 across_hips(const HumanPositions& joints) {
 
 // Standing legs do not pass each other, unlike stepping ones: of the vector between them only the
 // component along the unit vector `out` counts.
-Vec3 passing(Vec3 way, Vec3 out, float stepping) {
-  const Vec3 across = out * dot(way, out);
-  return across + (way - across) * stepping;
+Vec3 passing(Vec3 offset, Vec3 out, float stepping) {
+  const Vec3 across = out * dot(offset, out);
+  return across + (offset - across) * stepping;
 }
 
 // Whether parts of the left and the right leg may touch, measured by passing(). `left`: across the
@@ -80,16 +80,16 @@ void raise_pushes(const HeadingBody& body, const HumanPositions& joints, int sid
   const Part before = part_of(body.joints, 1 - side, other).below_crotch();
   const float reach = part.radius + there.radius;
   for (size_t p = 0; p < kPoints[own].size(); ++p) {
-    const float place = kPoints[own][p];
-    const Vec3 point = part.at(place);
-    const Vec3 way = passing(from_line(point, there.from, there.to), out, stepping);
+    const float share = kPoints[own][p];
+    const Vec3 point = part.at(share);
+    const Vec3 offset = passing(from_line(point, there.from, there.to), out, stepping);
     float& push = pushes[own][p];
-    if (!(push_across(way, out, reach) > push)) continue;
+    if (!(push_across(offset, out, reach) > push)) continue;
     const Vec3 was =
-        passing(from_line(input.at(place), before.from, before.to), own_side, stepping);
+        passing(from_line(input.at(share), before.from, before.to), own_side, stepping);
     const float kept =
         (std::min(reach, length(was)) - kFreeDepth) * smooth_step(dot(was, own_side) / kOwnSide);
-    if (kept > 0) push = std::max(push, push_across(way, out, kept));
+    if (kept > 0) push = std::max(push, push_across(offset, out, kept));
   }
 }
 

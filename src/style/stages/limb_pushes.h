@@ -7,7 +7,6 @@
 
 #include "base/easing.h"
 #include "pose/limb.h"
-#include "pose/two_bone.h"
 #include "style/stages/step_time.h"
 
 namespace panache {
@@ -22,37 +21,37 @@ inline float push_of(float depth) noexcept {
   if (!(depth > 0)) return 0;
   return depth < 2 * kSoft ? depth * depth / (4 * kSoft) : depth - kSoft;
 }
-// How far to push a point at `way` from an axis along the unit vector `out`, towards its own side,
-// to be `reach` away. Past the axis the push is the smaller, the further the point passes by.
-inline float push_across(Vec3 way, Vec3 out, float reach) noexcept {
-  const float across = dot(way, out);
+// How far to push a point at `offset` from an axis along the unit vector `out`, towards its own
+// side, to be `reach` away. Past the axis the push is the smaller, the further the point passes by.
+inline float push_across(Vec3 offset, Vec3 out, float reach) noexcept {
+  const float across = dot(offset, out);
   if (across > reach) return 0;
-  const Vec3 along = way - out * across;
+  const Vec3 along = offset - out * across;
   const float room = reach * reach - dot(along, along);
   if (!(room > 0)) return 0;
   const float wanted = std::sqrt(room);
   const float depth = wanted - (across < 0 ? across * wanted / reach : across);
   return push_of(depth) * smooth_step(wanted / 0.01f);
 }
-// The push that takes a point at `way` from an axis, nearer than `reach`, to that distance:
+// The push that takes a point at `offset` from an axis, nearer than `reach`, to that distance:
 // outwards, but not further away from its side `own`, a unit vector.
-inline Vec3 push_out(Vec3 way, Vec3 own, float reach) noexcept {
+inline Vec3 push_out(Vec3 offset, Vec3 own, float reach) noexcept {
   constexpr float kOwn = 0.05f;  // Metres: weight of `own` close to the axis.
-  const float far = length(way), room = reach - far;
+  const float far = length(offset), room = reach - far;
   if (!(room > 0)) return {};
-  const Vec3 ahead = way - own * std::min(0.0f, dot(way, own));
+  const Vec3 ahead = offset - own * std::min(0.0f, dot(offset, own));
   const Vec3 to = normalized(ahead + own * (kOwn * std::max(0.0f, 1 - far / reach)), own);
-  const float along = dot(way, to);
+  const float along = dot(offset, to);
   // To the exit of the circle; from the far side by the circle's width there.
   const float half = std::sqrt(std::max(0.0f, reach * reach - far * far));
   if (along < 0) return to * (half - along * half / reach);
   const float across = std::sqrt(std::max(0.0f, far * far - along * along));
   return to * push_of(std::sqrt(std::max(0.0f, reach * reach - across * across)) - along);
 }
-// Extends `push` to at least `length` in the direction `way`.
-inline void raise_push(Vec3& push, Vec3 way, float length) noexcept {
-  const float lacks = length - dot(push, way);
-  if (lacks > 0) push += way * lacks;
+// Extends `push` to at least `length` in the direction `offset`.
+inline void raise_push(Vec3& push, Vec3 offset, float length) noexcept {
+  const float lacks = length - dot(push, offset);
+  if (lacks > 0) push += offset * lacks;
 }
 
 // The move of a limb, eased in and out.
@@ -78,11 +77,11 @@ class EasedMove {
       return;
     }
     if (!(time.output > 0)) return;
-    const Vec3 way = wanted - at;
-    const float far = length(way);
+    const Vec3 offset = wanted - at;
+    const float far = length(offset);
     const float fastest = std::min(far * time.gain(kEaseSeconds) / time.output,
                                    std::sqrt(2 * kMaxAcceleration * far));
-    const Vec3 change = normalized(way) * fastest - speed;
+    const Vec3 change = normalized(offset) * fastest - speed;
     const float max = kMaxAcceleration * time.output, by = length(change);
     speed += by > max ? change * (max / by) : change;
     at += speed * time.output;
@@ -102,8 +101,10 @@ inline bool move_eased(const std::array<LimbJoints, 2>& limbs, const HumanPositi
   for (size_t side = 0; side < 2; ++side) {
     LimbMove wanted;
     if (moved) {
-      const auto way = [&](int joint) { return ((*moved)[joint] - joints[joint]) * amounts[side]; };
-      wanted = {way(limbs[side].middle), way(limbs[side].end)};
+      const auto offset = [&](int joint) {
+        return ((*moved)[joint] - joints[joint]) * amounts[side];
+      };
+      wanted = {offset(limbs[side].middle), offset(limbs[side].end)};
     }
     moves[side].step(wanted, time);
     if (moves[side].rests()) continue;

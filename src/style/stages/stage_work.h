@@ -1,5 +1,5 @@
 #pragma once
-// The data that the stages of one step read and write.
+// The data that the stages of one step read and write, and what they report of it.
 
 #include <algorithm>
 #include <array>
@@ -7,14 +7,12 @@
 
 #include "pose/changed_joints.h"
 #include "pose/contacts.h"
-#include "pose/hand_contacts.h"
 #include "pose/observer.h"
 #include "pose/style_delta.h"
 #include "style/model/gesture.h"
-#include "style/model/stance.h"
 #include "style/stages/root_motion.h"
 #include "style/stages/shape.h"
-#include "style/stages/steady_arms.h"
+#include "style/stages/arms_clear.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
 
@@ -38,33 +36,38 @@ struct StageOptions {
   bool tempo_everywhere = false;  // Otherwise only while the feet step.
 };
 
-// One step. The first part is input; the rest is computed by one stage of the row for later ones.
-// Shares are 0 to 1.
-struct StageWork {
+// What a step begins with: no stage changes it.
+struct StageInput {
   const AskedChange& asked;
   const StageOptions& options;
-  float flight;  // Share, see FlightWatch::amount().
+  const float flight;  // Share, 0 to 1, see FlightWatch::amount().
   const Observer& observer;
   const InputWindow& window;
   const StepTime& time;
-  BodyChange& change;  // From the shape stage on, the change of the input.
 
   const Observation& now = observer.now();
-  HeadingBody body = now.world;       // The input, heading frame, metres.
-  float stepping = 0;                 // Share, see StepWatch::amount().
-  float seated = 0;                   // Share, see SeatWatch::amount().
-  float above_floor = 1;              // Share, see share_above_floor().
-  float log_rate = 0;                 // See AskedChange; 0 in a flight or without steps.
-  const StyleDelta* delta = nullptr;  // Filtered; set by the filter.
-  RootOffset root = {};               // The style's change of the way; from the shape
-                                      // stage on, without what that holds back.
-  Shape shape = {};                   // As requested, reduced where it does not suit the body.
-  float raised = 0;                   // How far the floor raises the hips, not eased; metres.
-  float lift = 0;                     // How far a gesture lifts both feet, metres.
-  HumanPositions joints = {};  // changed_joints() of body and change, from the balance stage on.
-  std::array<float, kFeet> resting{};  // How much feet keep their height, shares.
-  ArmRotations free_arms = {};         // Before contacts and the body correct them.
-  HandHolds holds = {};                // Contacts that the hands keep.
+  const HeadingBody body = now.world;  // The input, heading frame, metres.
+};
+
+// A step on its way through the row. Each field is written by the one stage that is named, and read
+// by those after it; `change` and `joints` by every stage from there on. Shares are 0 to 1.
+struct StageWork : StageInput {
+  BodyChange& change;                  // Shaping: the change of the input.
+  float stepping = 0;                  // StepWatch: share, see amount().
+  float seated = 0;                    // SeatWatch: share, see amount().
+  const StyleDelta* delta = nullptr;   // OutputFilter: filtered;
+  float log_rate = 0;                  // see AskedChange; 0 in a flight or without steps.
+  RootOffset root = {};                // RootMotion: the style's change of the path; Shaping takes
+                                       // away what the shape holds back.
+  float above_floor = 1;               // Shaping: share, see share_above_floor();
+  Shape shape = {};                    // as requested, reduced where it does not suit the body.
+  float lift = 0;                      // Gestures: how far one lifts both feet, metres.
+  HumanPositions joints = {};          // Balance: changed_joints() of body and change.
+  float raised = 0;                    // FloorClearance: how far it raises the hips, not eased;
+                                       // metres.
+  std::array<float, kFeet> resting{};  // FootStance: how much feet keep their height, shares.
+  ArmRotations free_arms = {};         // HandContacts: before it and the body correct them;
+  HandHolds holds = {};                // contacts that the hands keep.
 
   // How active any style, or energy, is for each arm. Otherwise an arm keeps its input.
   std::array<float, 2> arms() const noexcept {
@@ -76,6 +79,14 @@ struct StageWork {
     };
     return {arm(Region::left_arm), arm(Region::right_arm)};
   }
+};
+
+// What the stages did at one instant, for reports.
+struct StageFacts {
+  // 1 if something besides the feet supports the body, and hips and legs stay unchanged; see
+  // SeatWatch.
+  float seated = 0;
+  float touching = 0;  // 1 if a hand keeps a contact, see HandContacts.
 };
 
 }  // namespace panache

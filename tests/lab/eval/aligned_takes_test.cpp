@@ -6,7 +6,7 @@
 
 #include "eval/make_aligned.h"
 #include "learn/samples.h"
-#include "pose/absolute_pose.h"
+#include "pose/features.h"
 
 namespace panache {
 namespace {

@@ -114,7 +114,7 @@ TEST_F(Xia, two_styles_at_once_are_mixed_in_their_parameters) {
   for (float at = 10; at < 40; ++at) {
     take_window(pairs_.takes[0], at, pose_feature_count(PoseLayout::positions), window);
     std::array<float, StyleDelta::kSize> both, a, b;
-    const Seen seen = {window, nullptr, {1 / 30.0, 1 / 30.0f, at == 10}};
+    const SourceInput seen = {window, nullptr, {1 / 30.0, 1 / 30.0f, at == 10}};
     pack(mixed->ask(seen).delta, both);
     pack(old->ask(seen).delta, a);
     pack(wild->ask(seen).delta, b);
@@ -170,7 +170,7 @@ TEST_F(Xia, the_tempo_is_that_of_the_neighbours) {
   double sum = 0;
   for (float at = 30; at < 120; ++at) {
     take_window(pairs.takes[0], at, pose_feature_count(PoseLayout::positions), window);
-    const Seen seen = {window, nullptr, {1 / 30.0, 1 / 30.0f, at == 30}};
+    const SourceInput seen = {window, nullptr, {1 / 30.0, 1 / 30.0f, at == 30}};
     sum += std::exp(source->ask(seen).log_rate) / 90;
   }
   EXPECT_NEAR(sum, 1.5, 0.05);  // The path advances by one frame or by two.

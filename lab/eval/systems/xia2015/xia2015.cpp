@@ -60,21 +60,21 @@ class LocalSource : public ChangeSource {
   LocalSource(const WindowKey& key, std::vector<Style> styles, const LocalSettings& settings)
       : key_(key), styles_(std::move(styles)), settings_(settings) {}
 
-  AskedChange ask(const Seen& seen) override {
+  AskedChange ask(const SourceInput& input) override {
     static const std::vector<float> units = default_recipe().output_scale();
     AskedChange out;
     std::array<float, kOutputs> change{};
     std::array<float, kKeySize> key;
-    if (!styles_.empty()) key_.project(seen.window, key);
+    if (!styles_.empty()) key_.project(input.window, key);
     float total = 0;
     for (Style& style : styles_) {
-      if (seen.time.first) style.recent.clear();
+      if (input.time.first) style.recent.clear();
       const size_t max = std::max<size_t>(1, style.database->examples().size() / 5);
       style.database->find(key, std::min(settings_.neighbours, max), neighbours_);
-      const std::optional<Output> recent = style.recent.before_next(seen.time.output);
+      const std::optional<Output> recent = style.recent.before_next(input.time.output);
       const LocalAnswer local =
           answer_locally(*style.database, neighbours_, key, recent ? &*recent : nullptr, settings_);
-      style.recent.push(local.output, seen.time.output);
+      style.recent.push(local.output, input.time.output);
       for (size_t n = 0; n < change.size(); ++n) {
         change[n] += style.strength * local.output[n] * units[n];
       }
