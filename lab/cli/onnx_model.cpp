@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "bench/onnx_graph.h"
 #include "net/layer.h"
-#include "onnx_graph.h"
 #include "pose/features.h"
 #include "style/model/model.h"
 #include "style/stages/strengths.h"

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include <nlohmann/json.hpp>
+#include <onnx/onnx_pb.h>
 
 #include "bench/int8_layer.h"
 #include "bench/measure.h"
@@ -278,57 +280,63 @@ TEST(BenchNetworks, the_network_with_style_adapters_equals_plain_loops) {
   EXPECT_EQ(y, through(blended(network.layers()[2], shares), second, false));
 }
 
-TEST(BenchNetworks, the_onnx_file_is_what_the_format_says) {
+// The ONNX file of a network of one layer, y0 = x * 2 + 0.5.
+struct OnnxFile {
+  onnx::ModelProto model;
+  std::vector<std::string> nodes;  // "Gemm x weight0_0 bias0_0 -> y0"
+  std::map<std::string, std::string> constants;
+
+  explicit OnnxFile(bool int8) {
+    const Network network{{{1, 1, {2}, {0.5f}}}};
+    EXPECT_TRUE(model.ParseFromString(format_onnx({&network, 1}, int8)));
+    for (const onnx::NodeProto& node : model.graph().node()) {
+      std::string text = node.op_type();
+      for (const std::string& input : node.input()) text += " " + input;
+      text += " ->";
+      for (const std::string& output : node.output()) text += " " + output;
+      nodes.push_back(text);
+    }
+    for (const onnx::TensorProto& constant : model.graph().initializer()) {
+      constants[constant.name()] = constant.raw_data();
+    }
+  }
+};
+
+TEST(BenchNetworks, the_onnx_file_has_a_node_for_each_layer) {
   using namespace std::string_literals;
-  const Network network{{{1, 1, {2}, {0.5f}}}};
-  // By hand from onnx.proto: a field's number times eight and how it is stored, length, contents.
-  const std::string one_by_one =
-      "\x12\x0e\x0a\x0c\x08\x01\x12\x08\x0a\x02\x08\x01\x0a\x02\x08\x01"s;
-  const std::string wanted =
-      "\x08\x07\x42\x02\x10\x0b\x3a\x86\x01"s  // Version 7, operators 11, a graph of 134 bytes:
-      "\x12\x08networks"s                      // its name,
-      "\x5a\x13\x0a\x01x"s +                   // its input,
-      one_by_one +
-      "\x2a\x17\x08\x01\x08\x01\x10\x01\x42\x09weight0_0\x4a\x04\0\0\0\x40"s  // weights,
-      "\x2a\x13\x08\x01\x10\x01\x42\x07"s                                     // bias,
-      "bias0_0\x4a\x04\0\0\0\x3f"s
-      "\x0a\x21\x0a\x01x\x0a\x09weight0_0\x0a\x07"s  // what is done with them,
-      "bias0_0\x12\x02y0\x22\x04Gemm"s
-      "\x62\x14\x0a\x02y0"s +  // and its output.
-      one_by_one;
-  EXPECT_EQ(format_onnx({&network, 1}), wanted);
+  const OnnxFile file(false);
+  EXPECT_EQ(file.model.ir_version(), 7);
+  EXPECT_EQ(file.model.opset_import(0).version(), 11);
+  for (const auto* values : {&file.model.graph().input(), &file.model.graph().output()}) {
+    ASSERT_EQ(values->size(), 1);
+    const auto& type = values->Get(0).type().tensor_type();
+    EXPECT_EQ(type.elem_type(), onnx::TensorProto::FLOAT);
+    ASSERT_EQ(type.shape().dim_size(), 2);
+    EXPECT_EQ(type.shape().dim(0).dim_value(), 1);
+    EXPECT_EQ(type.shape().dim(1).dim_value(), 1);
+  }
+  EXPECT_EQ(file.model.graph().input(0).name(), "x");
+  EXPECT_EQ(file.model.graph().output(0).name(), "y0");
+  EXPECT_EQ(file.nodes, std::vector{"Gemm x weight0_0 bias0_0 -> y0"s});
+  EXPECT_EQ(file.constants, (std::map{std::pair{"weight0_0"s, "\0\0\0\x40"s},
+                                      std::pair{"bias0_0"s, "\0\0\0\x3f"s}}));
 }
 
-TEST(BenchNetworks, the_onnx_file_in_int8_is_what_the_format_says) {
+TEST(BenchNetworks, the_onnx_file_in_int8_quantizes_the_input_of_each_layer) {
   using namespace std::string_literals;
-  const Network network{{{1, 1, {2}, {0.5f}}}};
-  // Of fewer than 128 bytes; the numbers are those of onnx.proto, times eight and 2.
-  const auto part = [](char field, const std::string& bytes) {
-    return field + std::string(1, static_cast<char>(bytes.size())) + bytes;
-  };
-  const auto node = [&](const std::string& type, const std::vector<std::string>& inputs,
-                        const std::vector<std::string>& outputs, const std::string& more = "") {
-    std::string all;
-    for (const std::string& input : inputs) all += part(0x0a, input);
-    for (const std::string& output : outputs) all += part(0x12, output);
-    return part(0x0a, all + part(0x22, type) + more);
-  };
-  const std::string one_by_one =
-      "\x12\x0e\x0a\x0c\x08\x01\x12\x08\x0a\x02\x08\x01\x0a\x02\x08\x01"s;
-  const std::string wanted =
-      "\x08\x07\x42\x02\x10\x0b\x3a\xf5\x02\x12\x08networks\x5a\x13\x0a\x01x"s + one_by_one +
-      node("DynamicQuantizeLinear", {"x"}, {"x_bytes", "x_scale", "x_zero"}) +
-      // 127, which is worth 2 / 127.
-      "\x2a\x14\x08\x01\x08\x01\x10\x03\x42\x09weight0_0\x4a\x01\x7f"s
-      "\x2a\x14\x08\x01\x10\x01\x42\x08scale0_0\x4a\x04\x04\x02\x81\x3c"s
-      "\x2a\x13\x08\x01\x10\x01\x42\x07"s
-      "bias0_0\x4a\x04\0\0\0\x3f"s +
-      node("MatMulInteger", {"x_bytes", "weight0_0", "x_zero"}, {"whole0_0"}) +
-      node("Cast", {"whole0_0"}, {"product0_0"}, "\x2a\x09\x0a\x02to\x18\x01\xa0\x01\x02"s) +
-      node("Mul", {"x_scale", "scale0_0"}, {"unit0_0"}) +
-      node("Mul", {"product0_0", "unit0_0"}, {"scaled0_0"}) +
-      node("Add", {"scaled0_0", "bias0_0"}, {"y0"}) + "\x62\x14\x0a\x02y0"s + one_by_one;
-  EXPECT_EQ(format_onnx({&network, 1}, true), wanted);
+  const OnnxFile file(true);
+  EXPECT_EQ(file.nodes,
+            (std::vector{"DynamicQuantizeLinear x -> x_bytes x_scale x_zero"s,
+                         "MatMulInteger x_bytes weight0_0 x_zero -> whole0_0"s,
+                         "Cast whole0_0 -> product0_0"s, "Mul x_scale scale0_0 -> unit0_0"s,
+                         "Mul product0_0 unit0_0 -> scaled0_0"s, "Add scaled0_0 bias0_0 -> y0"s}));
+  EXPECT_EQ(file.model.graph().node(2).attribute(0).name(), "to");
+  EXPECT_EQ(file.model.graph().node(2).attribute(0).i(), onnx::TensorProto::FLOAT);
+  EXPECT_EQ(file.model.graph().initializer(0).data_type(), onnx::TensorProto::INT8);
+  // 127, which is worth 2 / 127.
+  EXPECT_EQ(file.constants,
+            (std::map{std::pair{"weight0_0"s, "\x7f"s}, std::pair{"scale0_0"s, "\x04\x02\x81\x3c"s},
+                      std::pair{"bias0_0"s, "\0\0\0\x3f"s}}));
 }
 
 TEST(BenchNetworks, others_get_the_int8_weights_that_ours_have) {
