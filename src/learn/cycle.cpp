@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "pose/observer.h"
-#include "pose/pose_distance.h"
+#include "pose/loop.h"
 #include "pose/root_pose.h"
 
 namespace panache {
@@ -20,10 +19,6 @@ constexpr int kAddedFrames = 90;
 // A pair with less than this cost is in phase. A continued cycle always fits a little better, so it
 // must do so by this factor.
 constexpr double kInPhase = 0.1, kBetter = 0.9;
-
-double mean_distance(const HumanPositions& a, const HumanPositions& b) {
-  return pose_distance(a, b).mean;
-}
 
 template <class T>
 void repeat(std::vector<T>& frames, size_t cycle, size_t count) {
@@ -64,20 +59,11 @@ double mean_cost(const std::vector<Pairing>& pairings) {
 }
 
 int cycle_frames(const Clip& clip, const Rig& rig) {
-  const int first = rig.first_frame(), last = clip.frames - 1;
-  if (last - first < 3) return 0;
-  PosedRig reader(rig);
-  const auto body_at = [&](int frame) {
-    Observation seen;
-    observe(reader, clip.pose(frame), 0, seen);
-    return seen.body_frame;
-  };
-  const HumanPositions begin = body_at(first), end = body_at(last);
-  const double seam = mean_distance(begin, end);
-  const double first_step = mean_distance(begin, body_at(first + 1));
-  const double last_step = mean_distance(body_at(last - 1), end);
-  if (!(seam < std::max(kSeam, kSeamSteps * std::max(first_step, last_step)))) return 0;
-  const int steps = last - first + (seam < first_step / 2 ? 0 : 1);
+  const LoopSeam seam = measure_seam(clip, rig);
+  if (seam.frames() < 3) return 0;
+  const double gap = seam.gap, first_step = seam.first_step, last_step = seam.last_step;
+  if (!(gap < std::max(kSeam, kSeamSteps * std::max(first_step, last_step)))) return 0;
+  const int steps = seam.frames() + (gap < first_step / 2 ? 0 : 1);
   const double seconds = steps * clip.frame_time;
   return seconds > kLongestCycle ? 0 : static_cast<int>(std::lround(seconds * kTakeRate));
 }

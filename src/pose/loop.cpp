@@ -54,6 +54,8 @@ LoopSeam measure_seam(const Clip& clip, const Rig& rig) {
   Observation second, before;
   observe(reader, clip.pose(seam.first + 1), begin.root.facing, second);
   observe(reader, clip.pose(seam.last - 1), facing, before);
+  seam.first_step = pose_distance(begin.body_frame, second.body_frame).mean;
+  seam.last_step = pose_distance(before.body_frame, now.body_frame).mean;
   for (size_t j = 0; j < now.body_frame.size(); ++j) {
     const Vec3 after = second.body_frame[j] - begin.body_frame[j];
     const Vec3 until = now.body_frame[j] - before.body_frame[j];

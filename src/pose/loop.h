@@ -1,5 +1,6 @@
 #pragma once
-// Detects loops: clips whose last pose is their first, except for the body's travel.
+// Detects loops: clips whose last pose is their first, except for the body's travel. A live stream
+// has no seam: style/play/playback.cpp searches it for two similar moments instead.
 
 #include "base/result.h"
 #include "clip/clip.h"
@@ -15,6 +16,8 @@ struct LoopSeam {
   // Mean and largest distance of the canonical joints between the two poses, each relative to its
   // root, metres. `extent`: the largest mean distance of any pose from the first.
   float gap = 0, worst = 0, extent = 0;
+  // The mean distances between the first two poses, and the last two; metres.
+  float first_step = 0, last_step = 0;
   // The speed at the seam: for each joint, relative to the root, the mean of the velocities before
   // and after; then the mean of their lengths, m/s. It is 0 for a body that reverses there.
   float speed = 0;
