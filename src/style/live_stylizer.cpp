@@ -65,9 +65,8 @@ void LiveStylizer::step(ConstPose in, std::span<const float> strengths, double s
   if (!playback_) return stylizer_.step(in, strengths, seconds, out);
   seconds = bounded_seconds(seconds);
   if (!playback_->take_in(in, seconds)) stylizer_.forget_motion();
-  const auto [pose, played, flight] =
-      playback_->show(seconds, stylizer_.rate(), stylizer_.amount() > 0);
-  stylizer_.step(pose, strengths, {played, seconds, flight}, out);
+  const auto [pose, moment] = playback_->show(seconds, stylizer_.rate(), stylizer_.amount() > 0);
+  stylizer_.step(pose, strengths, moment, out);
 }
 
 size_t LiveStylizer::state_size() const noexcept {

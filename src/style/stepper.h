@@ -2,7 +2,6 @@
 // A character's step: observes the input, asks a source for the change and carries it out.
 
 #include <array>
-#include <optional>
 
 #include "base/prefetch.h"
 #include "pose/observer.h"
@@ -12,17 +11,6 @@
 #include "style/stylizer_options.h"
 
 namespace panache {
-
-// Input time and viewer's time since the last step. They are equal unless a play head runs through
-// the input at another rate.
-struct StepMoment {
-  double input_seconds, output_seconds;
-  // FlightWatch::amount(), if a play head has seen later poses. Otherwise it is derived from the
-  // poses so far.
-  std::optional<float> flight = {};
-  double clip_seconds = 0;         // See StepTime::clip.
-  const NextPose* next = nullptr;  // See StepTime::next, from Stepper::see_next().
-};
 
 // Only the constructor allocates, unless the source does; nothing fails.
 class Stepper {

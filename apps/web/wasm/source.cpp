@@ -26,7 +26,7 @@ Source::Source(std::shared_ptr<const MotionFile> file, int which, Rig rig)
       rig_(std::move(rig)),
       first_(std::min(rig_.first_frame(), clip().frames - 1)),
       last_(clip().frames - 1 - first_) {
-  lookout_.emplace(clip(), rig_);
+  clip_head_.emplace(clip(), rig_);
   reference_.skeleton = clip().skeleton;
   reference_.append(clip().pose(first_));
 }
@@ -49,9 +49,8 @@ bool Source::advance(double seconds, Pose out) {
     head_ = loop_ && duration() > 0 ? std::fmod(head_, duration()) : duration();
   }
   const double frame = first_ + head_ / clip().frame_time;
-  sample(clip(), frame, out);
-  if (cut) lookout_->restart(frame);
-  flight_ = lookout_->flight(frame);
+  if (cut) clip_head_->restart(frame);
+  flight_ = clip_head_->show(frame, out);
   return cut;
 }
 

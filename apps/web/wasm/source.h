@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "clip/motion_file.h"
 #include "rig/rig.h"
-#include "style/play/flight_lookout.h"
+#include "style/play/clip_head.h"
 #include "walker/walker.h"
 
 namespace panache::web {
@@ -59,7 +59,7 @@ class Source {
   double last_ = 0;  // Frames from first to last.
   double head_ = 0;  // Seconds after the first frame.
   bool loop_ = true, cut_ = true;
-  std::optional<FlightLookout> lookout_;
+  std::optional<ClipHead> clip_head_;
   std::optional<float> flight_;
 };
 

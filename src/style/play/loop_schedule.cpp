@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "style/play/flight_lookout.h"
+#include "style/play/clip_head.h"
 
 namespace panache {
 namespace {

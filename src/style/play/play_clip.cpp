@@ -10,7 +10,7 @@
 #include "pose/close_loop.h"
 #include "pose/loop.h"
 #include "pose/pose_distance.h"
-#include "style/play/flight_lookout.h"
+#include "style/play/clip_head.h"
 #include "style/stepper.h"
 
 namespace panache {
@@ -40,7 +40,7 @@ class ClipStepper {
   const Clip& clip_;
   ChangeSource& source_;
   Stepper stepper_;
-  FlightLookout lookout_;
+  ClipHead head_;
   std::optional<NextPose> next_;  // The second pose.
   float flight_ = 0, gate_ = 1;
   std::vector<Quat> rotations_;
@@ -52,7 +52,7 @@ ClipStepper::ClipStepper(const Clip& clip, const Rig& rig, ChangeSource& source,
     : clip_(clip),
       source_(source),
       stepper_(rig, source.layout(), options),
-      lookout_(clip, rig),
+      head_(clip, rig),
       rotations_(clip.joints()),
       translations_(clip.joints()) {
   const int second = std::min(rig.first_frame(), clip.frames - 1) + 1;
@@ -63,8 +63,7 @@ ClipStepper::ClipStepper(const Clip& clip, const Rig& rig, ChangeSource& source,
 
 void ClipStepper::step(double frame, double advance, double seconds) {
   const Pose pose = {rotations_, translations_};
-  sample(clip_, frame, pose);
-  flight_ = lookout_.flight(frame);
+  flight_ = head_.show(frame, pose);
   const StepMoment moment = {advance * clip_.frame_time, clip_.frame_time, flight_, seconds,
                              next_ ? &*next_ : nullptr};
   gate_ = stepper_.step(pose, moment, source_, pose).gate;

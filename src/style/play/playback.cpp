@@ -176,7 +176,7 @@ Playback::Shown Playback::show(double seconds, double rate, bool styled) noexcep
   const Pose shown{shown_rotations_, shown_translations_};
   pose_at(head_.ahead(), offset_, shown);
   blend_from_old(seconds, played, shown);
-  return {shown, played, flights_.amount(time_ + head_.ahead())};
+  return {shown, {played, seconds, flights_.amount(time_ + head_.ahead())}};
 }
 
 namespace {

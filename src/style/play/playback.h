@@ -78,8 +78,7 @@ class Playback {
   // The next pose at the play head.
   struct Shown {
     ConstPose pose;  // Valid until the next call.
-    double seconds;  // Input time since the last one.
-    float flight;    // See FlightWatch::amount().
+    StepMoment moment;
   };
   // `seconds`: since the last pose; `rate`: see PlayHead::advance().
   Shown show(double seconds, double rate, bool styled) noexcept;

@@ -2,6 +2,7 @@
 // The times of a step, for every stage.
 
 #include <algorithm>
+#include <optional>
 
 #include "base/easing.h"
 #include "rig/humanoid.h"
@@ -19,6 +20,18 @@ inline double bounded_seconds(double seconds) noexcept {
 struct NextPose {
   HumanPositions world{};  // Canonical joints, metres.
   float seconds = 0;       // After the first pose.
+};
+
+// The moment of a motion that is due at a step, as each play head gives it: of a clip, of a loop,
+// and of a live input. Seconds since the last step; those of input and viewer are equal unless a
+// play head runs through the input at another rate.
+struct StepMoment {
+  double input_seconds, output_seconds;
+  // FlightWatch::amount(), if a play head has seen later poses. Otherwise it is derived from the
+  // poses so far.
+  std::optional<float> flight = {};
+  double clip_seconds = 0;         // See StepTime::clip.
+  const NextPose* next = nullptr;  // See StepTime::next, from Stepper::see_next().
 };
 
 struct StepTime {

@@ -1,5 +1,5 @@
 #pragma once
-// The path of a play head through a whole clip: flights ahead of it, and its next position.
+// A play head in a clip: the pose there, flights ahead of it, and its next position.
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +23,9 @@ inline double clip_advance(double frame, double rate, float flight) {
 }
 
 // The clip must outlive it.
-class FlightLookout {
+class ClipHead {
  public:
-  FlightLookout(const Clip& clip, const Rig& rig)
+  ClipHead(const Clip& clip, const Rig& rig)
       : clip_(clip), reader_(rig), next_(rig.first_frame()) {}
 
   // Continues from another frame, possibly an earlier one.
@@ -34,8 +34,10 @@ class FlightLookout {
     next_ = static_cast<int>(std::max<double>(reader_.rig().first_frame(), first));
     flights_.reset();
   }
-  // See FlightWatch::amount(); `frame` never goes back.
-  float flight(double frame) {
+  // Writes the pose at `frame`, which is fractional and never goes back, and returns
+  // FlightWatch::amount() there.
+  float show(double frame, Pose out) {
+    sample(clip_, frame, out);
     const double until = frame + kFlightAhead / clip_.frame_time;
     for (; next_ < clip_.frames && next_ <= until; ++next_) {
       BodyPose body;
