@@ -70,13 +70,8 @@ std::string brief(double value, int digits) {
 
 double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-std::string plural(size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 std::string padded(const std::string& text, size_t width) {
-  const auto letters = static_cast<size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+  const size_t letters = character_count(text);
   return text + std::string(letters < width ? width - letters : 1, ' ');
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/result.h"
+#include "base/text.h"
 
 namespace panache::cli {
 
@@ -57,8 +58,6 @@ std::string fixed(double value, int decimals);
 std::string brief(double value, int digits = 6);
 // `value` to four decimals, for JSON.
 double rounded(double value);
-// "1 file", "2 files".
-std::string plural(size_t count, const std::string& noun);
 // `text` padded with spaces to `width` characters (UTF-8), with at least one space.
 std::string padded(const std::string& text, size_t width);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/names.h"
 #include "clip/text_cursor.h"
 #include "program.h"
 #include "strengths.h"
@@ -29,11 +30,10 @@ PersonNumbers numbers_of(const std::string& text, const Model& model) {
     at = end + 1;
   }
   if (count == names.size()) return out;
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  throw Failure{{"--person " + panache::quoted(text) + ": expected " +
-                 std::to_string(names.size()) + " numbers (" + list + "), a seed or a word"},
-                kBadUsage};
+  throw Failure{
+      {"--person " + panache::quoted(text) + ": expected " + std::to_string(names.size()) +
+       " numbers (" + one_of(names, ", ") + "), a seed or a word"},
+      kBadUsage};
 }
 
 }  // namespace

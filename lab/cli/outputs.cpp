@@ -25,7 +25,7 @@ std::string line(const std::string& name, const std::vector<double>& values, int
   std::string text = padded(name, 28);
   for (const double value : values) {
     const std::string cell = number_text(value, digits);
-    text += std::string(column_count(cell) < 10 ? 10 - column_count(cell) : 1, ' ') + cell;
+    text += std::string(character_count(cell) < 10 ? 10 - character_count(cell) : 1, ' ') + cell;
   }
   return text + "\n";
 }

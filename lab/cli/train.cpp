@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "base/file.h"
+#include "base/names.h"
 #include "manifests.h"
 #include "messages.h"
 #include "stop_signal.h"
@@ -32,11 +33,10 @@ struct Options {
 std::string describe_stop(const std::string& output) {
   const std::vector<std::string> saved = find_checkpoints(output);
   if (saved.empty()) return "stopped; nothing is kept yet, and the same command starts anew";
-  std::string list;
-  for (const std::string& file : saved) list += (list.empty() ? "" : ", ") + file;
   return "stopped; the same command goes on from the last " +
-         std::string(saved.size() == 1 ? "checkpoint" : "checkpoints") + " (" + list +
-         "); delete " + (saved.size() == 1 ? "it" : "them") + " to start anew";
+         std::string(saved.size() == 1 ? "checkpoint" : "checkpoints") + " (" +
+         one_of(saved, ", ") + "); delete " + (saved.size() == 1 ? "it" : "them") +
+         " to start anew";
 }
 
 // During its lifetime, Ctrl-C ends the program with a message at any point of the training:

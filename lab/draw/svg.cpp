@@ -100,10 +100,7 @@ std::string Svg::str() const {
 
 double text_width(std::string_view text, double size) {
   // The mean width of a Helvetica character is a little over half its size.
-  const auto characters = std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  });
-  return 0.55 * size * static_cast<double>(characters);
+  return 0.55 * size * static_cast<double>(character_count(text));
 }
 
 std::string palette(size_t i) {

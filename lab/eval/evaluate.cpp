@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "base/names.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "eval/arrival.h"
@@ -274,14 +275,12 @@ Result<void> check_unseen(const EvaluateOptions& options) {
   for (const ManifestRow& row : rows_to_evaluate(options)) {
     if (!row.neutral) contents.insert(row.content);
   }
-  std::string shown;
-  for (const std::string& content : contents) shown += (shown.empty() ? "" : ", ") + content;
   for (const UnseenSplit& split : options.unseen) {
     for (const std::string& content : split.contents) {
       if (contents.contains(content)) continue;
-      return Error{
-          "unseen content '" + content +
-          "' has no styled test take; expected contents of the styled test takes: " + shown};
+      return Error{"unseen content '" + content +
+                   "' has no styled test take; expected contents of the styled test takes: " +
+                   one_of(contents, ", ")};
     }
   }
   return {};

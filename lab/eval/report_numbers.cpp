@@ -60,10 +60,4 @@ Metrics mean_metrics(const std::vector<const Metrics*>& lines) {
   return mean;
 }
 
-size_t column_count(std::string_view text) {
-  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  }));
-}
-
 }  // namespace panache

@@ -32,8 +32,4 @@ Metrics mean_metrics(const std::map<Key, Metrics>& table) {
   for (const auto& [name, metrics] : table) lines.push_back(&metrics);
   return mean_metrics(lines);
 }
-
-// The number of terminal columns of `text`, UTF-8.
-size_t column_count(std::string_view text);
-
 }  // namespace panache

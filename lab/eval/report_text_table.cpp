@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "eval/report_numbers.h"
+#include "base/text.h"
 
 namespace panache {
 namespace {
@@ -13,12 +13,12 @@ constexpr size_t kMinNameWidth = 28, kWidestCell = 24;
 
 std::string to_left(const std::string& text, size_t width) {
   const std::string shown = cut_text(text, width);
-  return shown + std::string(width - column_count(shown), ' ');
+  return shown + std::string(width - character_count(shown), ' ');
 }
 
 std::string to_right(const std::string& text, size_t width) {
   const std::string shown = cut_text(text, width);
-  return std::string(width - column_count(shown), ' ') + shown;
+  return std::string(width - character_count(shown), ' ') + shown;
 }
 
 // A label's first word, and the rest.
@@ -36,7 +36,7 @@ void add_line(std::string& text, std::string line) {
 }  // namespace
 
 std::string cut_text(const std::string& text, size_t columns) {
-  if (column_count(text) <= columns) return text;
+  if (character_count(text) <= columns) return text;
   const std::string kEnd = columns > 3 ? "..." : "";
   std::string out;
   size_t used = 0;
@@ -63,8 +63,8 @@ void TextTable::add_row(const std::string& name, std::vector<std::string> cells)
 
 size_t TextTable::column_width(size_t column) const {
   const auto [above, below] = broken(labels_[column]);
-  size_t width = std::max(column_count(above), column_count(below));
-  for (const Row& row : rows_) width = std::max(width, column_count(row.cells[column]));
+  size_t width = std::max(character_count(above), character_count(below));
+  for (const Row& row : rows_) width = std::max(width, character_count(row.cells[column]));
   return std::min(width, kWidestCell);
 }
 
@@ -124,8 +124,8 @@ std::string TextTable::block(const std::vector<Group>& groups, size_t name_width
 
 std::string TextTable::str() const {
   if (rows_.empty()) return "";
-  size_t name_width = column_count(names_);
-  for (const Row& row : rows_) name_width = std::max(name_width, column_count(row.name));
+  size_t name_width = character_count(names_);
+  for (const Row& row : rows_) name_width = std::max(name_width, character_count(row.name));
   size_t columns_width = 0;
   for (const Group& group : groups_) columns_width += group_width(group);
   // Names get the width that columns leave.

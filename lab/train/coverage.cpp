@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/names.h"
+#include "base/text.h"
 #include "train/removal.h"
 
 namespace panache {
@@ -46,16 +48,6 @@ std::map<Content, Takes> contents_of(const std::vector<ManifestRow>& rows) {
   return contents;
 }
 
-std::string joined(const std::set<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
-std::string count(size_t number, const std::string& noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
-
 std::string place_of(const Takes& takes) {
   return (takes.manifest.empty() ? "" : takes.manifest + ": ") +
          (takes.person.empty() ? "" : "performer '" + takes.person + "': ");
@@ -83,10 +75,10 @@ std::vector<std::string> list_unpaired(const std::vector<ManifestRow>& rows) {
       lines.push_back(where + "has no neutral take: styled takes are compared with the neutral " +
                       "ones of the other performers");
     } else if (takes.neutral == 0) {
-      lines.push_back(what + "it has no neutral take (" + count(takes.styled, "take") + " of " +
-                      joined(takes.styles) + ")");
+      lines.push_back(what + "it has no neutral take (" + plural(takes.styled, "take") + " of " +
+                      one_of(takes.styles, ", ") + ")");
     } else if (takes.styled == 0) {
-      lines.push_back(what + "it has no styled take (" + count(takes.neutral, "neutral take") +
+      lines.push_back(what + "it has no styled take (" + plural(takes.neutral, "neutral take") +
                       ")");
     }
   }
@@ -109,10 +101,10 @@ Result<void> check_styles(const std::vector<ManifestRow>& rows,
     if (learnt) continue;
     ++missing;
     list += (list.empty() ? "'" : ", '") + style.name + "' (" +
-            (shown.empty() ? "no take to train on" : joined(shown)) + ")";
+            (shown.empty() ? "no take to train on" : one_of(shown, ", ")) + ")";
   }
   if (missing == 0) return {};
-  return Error{"nothing can be learnt of " + count(missing, "style") + ": " + list +
+  return Error{"nothing can be learnt of " + plural(missing, "style") + ": " + list +
                "; expected a neutral take of one of these contents, to train on, in the manifest "
                "of the style; add one, or leave the " +
                (missing == 1 ? "style" : "styles") + " out (--styles lists those to learn)"};

@@ -26,11 +26,14 @@ std::vector<std::string> nearest_names(std::string_view wanted,
 std::string is_or_are(const std::vector<std::string>& names);
 
 // "a, b or c", with `last` before the last one.
-inline std::string one_of(const std::vector<std::string>& names, const char* last = " or ") {
+template <class Names>
+std::string one_of(const Names& names, const char* last = " or ") {
   std::string text;
-  for (size_t i = 0; i < names.size(); ++i) {
+  size_t i = 0;
+  for (const std::string& name : names) {
     if (i > 0) text += i + 1 < names.size() ? ", " : last;
-    text += names[i];
+    text += name;
+    ++i;
   }
   return text;
 }

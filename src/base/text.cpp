@@ -19,6 +19,16 @@ size_t utf8_length(std::string_view text) noexcept {
   return length;
 }
 
+size_t character_count(std::string_view text) noexcept {
+  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
+std::string plural(uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 std::string to_utf8(std::string_view text) {
   std::string out;
   while (!text.empty()) {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/text.h"
 #include "clip/bvh.h"
 #include "clip/bvh_document.h"
 #include "clip/text_cursor.h"
@@ -19,10 +20,6 @@ constexpr ChannelName kChannelNames[] = {{"Xposition", false, 0}, {"Yposition", 
                                          {"Zposition", false, 2}, {"Xrotation", true, 0},
                                          {"Yrotation", true, 1},  {"Zrotation", true, 2}};
 constexpr uint64_t kMaxChannels = 6;
-
-std::string plural(uint64_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
 
 class BvhReader {
  public:

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/text.h"
 #include "base/xml_check.h"
 #include "eval/make_report.h"
-#include "eval/report_numbers.h"
 
 namespace panache {
 namespace {
@@ -23,7 +23,7 @@ std::string too_wide(const std::string& text) {
   std::istringstream lines(text);
   std::string wide;
   for (std::string line; std::getline(lines, line);) {
-    if (column_count(line) > 110) wide += line + "\n";
+    if (character_count(line) > 110) wide += line + "\n";
   }
   return wide;
 }
@@ -53,7 +53,7 @@ TEST(ReportText, columns_are_aligned) {
   EXPECT_TRUE(table[3].starts_with("real takes")) << table[3];
   EXPECT_TRUE(table[5].starts_with("panache")) << table[5];
   for (size_t line = 3; line < table.size(); ++line) {
-    EXPECT_EQ(column_count(table[line]), column_count(table[2])) << table[line];
+    EXPECT_EQ(character_count(table[line]), character_count(table[2])) << table[line];
   }
   EXPECT_NE(table[5].find("0.801"), std::string::npos);
 }
