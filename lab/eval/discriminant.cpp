@@ -26,10 +26,9 @@ void write_statistics(const std::vector<HumanPositions>& body, int first, int wi
     for (int j = 1; j < kHumanJoints; ++j) {
       const Vec3 bone = body[f][j] - body[f][kHumanParent[j]];
       const Vec3 direction = bone / std::max(length(bone), 1e-6f);
-      const float numbers[3] = {direction.x, direction.y, direction.z};
       for (int n = 0; n < 3; ++n) {
-        mean[3 * (j - 1) + n] += numbers[n] / frames;
-        deviation[3 * (j - 1) + n] += numbers[n] * numbers[n] / frames;
+        mean[3 * (j - 1) + n] += direction[n] / frames;
+        deviation[3 * (j - 1) + n] += direction[n] * direction[n] / frames;
       }
     }
     height += body[f][0].y / frames;

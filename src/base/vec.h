@@ -2,12 +2,16 @@
 // Vectors of three numbers. Float at run time (Vec3), double in parsing and offline work (Vec3d).
 
 #include <cmath>
+#include <cstddef>
 
 namespace panache {
 
 template <class T>
 struct BasicVec3 {
   T x = 0, y = 0, z = 0;
+
+  constexpr T& operator[](size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr T operator[](size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 
   friend constexpr BasicVec3 operator+(BasicVec3 a, BasicVec3 b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};

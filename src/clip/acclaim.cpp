@@ -45,7 +45,7 @@ struct Acclaim {
 
 Quatd turn_about(int axis, double angle) {
   Vec3d v;
-  (axis == 0 ? v.x : axis == 1 ? v.y : v.z) = 1;
+  v[axis] = 1;
   return axis_angle(v, angle);
 }
 
@@ -182,9 +182,8 @@ class AsfReader {
   }
 
   Quatd turned(const std::array<int, 3>& order, Vec3d angles) const {
-    const double by[] = {angles.x, angles.y, angles.z};
     Quatd q;
-    for (const int axis : order) q = turn_about(axis, by[axis] * file_.per_degree) * q;
+    for (const int axis : order) q = turn_about(axis, angles[axis] * file_.per_degree) * q;
     return normalized(q);
   }
 
@@ -404,7 +403,7 @@ class AmcReader {
       if (channel.rotates) {
         turn = turn_about(channel.axis, value * per_degree_) * turn;
       } else {
-        (channel.axis == 0 ? move.x : channel.axis == 1 ? move.y : move.z) = value;
+        move[channel.axis] = value;
       }
     }
     if (words_.more_on_line()) {

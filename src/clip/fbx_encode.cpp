@@ -18,8 +18,6 @@ double readable(double number) {
 }
 Vec3d readable(Vec3d v) { return {readable(v.x), readable(v.y), readable(v.z)}; }
 
-double axis_of(Vec3d v, size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 class FbxEncoder {
  public:
   explicit FbxEncoder(const FbxDocument& document) : document_(document), tree_(document.tree) {
@@ -168,7 +166,7 @@ class FbxEncoder {
 
   static std::vector<float> axis_values(std::span<const Vec3d> numbers, size_t axis) {
     std::vector<float> out;
-    for (const Vec3d v : numbers) out.push_back(static_cast<float>(readable(axis_of(v, axis))));
+    for (const Vec3d v : numbers) out.push_back(static_cast<float>(readable(v[axis])));
     return out;
   }
 

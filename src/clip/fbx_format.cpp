@@ -270,9 +270,7 @@ class FbxFormatter {
     connect(node, joint_id(j), part == 0 ? "Lcl Translation" : "Lcl Rotation");
     for (size_t axis = 0; axis < 3; ++axis) {
       std::vector<float> values;
-      for (const Vec3d v : numbers) {
-        values.push_back(static_cast<float>(axis == 0 ? v.x : axis == 1 ? v.y : v.z));
-      }
+      for (const Vec3d v : numbers) values.push_back(static_cast<float>(v[axis]));
       const int64_t curve = next_++;
       add_object(new_fbx_curve(curve, {times, values}, false));
       connect(curve, node, std::string("d|") + "XYZ"[axis]);

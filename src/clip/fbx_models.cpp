@@ -19,9 +19,8 @@ constexpr EulerOrder kFbxOrders[] = {{3, {2, 1, 0}}, {3, {1, 2, 0}}, {3, {0, 2, 
                                      {3, {1, 0, 2}}, {3, {0, 1, 2}}, {3, {2, 1, 0}}};
 
 Quatd turned(const EulerOrder& order, Vec3d degrees) {
-  const double of[] = {degrees.x, degrees.y, degrees.z};
   const auto& axis = order.axis;
-  return euler_to_quat(order, {of[axis[0]], of[axis[1]], of[axis[2]]});
+  return euler_to_quat(order, {degrees[axis[0]], degrees[axis[1]], degrees[axis[2]]});
 }
 
 // Frames per second, by time mode.
@@ -269,13 +268,12 @@ Quatd FbxModel::rotation_of(Vec3d degrees) const {
 }
 
 Vec3d FbxModel::angles_of(Quatd rotation, Vec3d near) const {
-  const double of[] = {near.x, near.y, near.z};
   const auto& axis = order.axis;
   const EulerAngles angles = quat_to_euler(order, conjugate(before) * rotation * conjugate(after),
-                                           {of[axis[0]], of[axis[1]], of[axis[2]]});
-  double out[3];
+                                           {near[axis[0]], near[axis[1]], near[axis[2]]});
+  Vec3d out;
   for (size_t i = 0; i < 3; ++i) out[axis[i]] = angles[i];
-  return {out[0], out[1], out[2]};
+  return out;
 }
 
 std::string fbx_without_class(const std::string& text) {

@@ -117,10 +117,9 @@ class NodePlacer {
     out.rotation =
         normalized(local.rotation * from_axes(turn.columns[0], turn.columns[1], turn.columns[2]));
     out.scale = {scale.x * sign.x, scale.y * sign.y, scale.z * sign.z};
-    const double sizes[] = {scale.x, scale.y, scale.z};
     exact_[which] = 1;
     for (size_t c = 0; c < 3; ++c) {
-      const Vec3d off = positive.columns[c] - turn.columns[c] * sizes[c];
+      const Vec3d off = positive.columns[c] - turn.columns[c] * scale[c];
       if (length(off) > kSame * length(positive.columns[c])) exact_[which] = 0;
     }
   }

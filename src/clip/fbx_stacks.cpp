@@ -201,8 +201,6 @@ class FbxStacksReader {
   size_t keys_ = 0;
 };
 
-double& entry(Vec3d& v, size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 // What a layer does to a value that the layers below it have given.
 Vec3d blended(const FbxLayer& layer, const FbxModel& model, size_t part, Vec3d below, Vec3d own,
               double weight) {
@@ -251,8 +249,7 @@ FbxPlace FbxStack::place(const FbxDocument& document, size_t model, int64_t time
       const double nothing = part == kFbxScale && layer.multiplies_scales ? 1 : 0;
       Vec3d own = adds ? Vec3d{nothing, nothing, nothing} : out.parts[part];
       for (size_t axis = 0; axis < 3; ++axis) {
-        entry(own, axis) =
-            curves.curves[axis].at(time, curves.still[axis].value_or(entry(own, axis)));
+        own[axis] = curves.curves[axis].at(time, curves.still[axis].value_or(own[axis]));
       }
       out.parts[part] = is_base ? own : blended(layer, of, part, out.parts[part], own, weight);
     }

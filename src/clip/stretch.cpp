@@ -11,8 +11,6 @@ constexpr double kEven = 1e-4;
 // Anything flatter than this has lost an axis.
 constexpr double kFlat = 1e-6;
 
-double entry(Vec3d v, size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 // The single number nearest to three scales of one sign.
 double even_size(double x, double y, double z) {
   // A cube root is not exact, and most scales are uniform.
@@ -27,7 +25,7 @@ Stretch::Stretch(const std::array<Vec3d, 3>& columns) {
   for (size_t c = 0; c < 3; ++c) {
     for (size_t r = 0; r < 3; ++r) {
       const double wanted = r == c ? size : 0;
-      even = even && std::abs(entry(columns[c], r) - wanted) <= kEven * std::abs(size);
+      even = even && std::abs(columns[c][r] - wanted) <= kEven * std::abs(size);
     }
   }
   even_ = even;

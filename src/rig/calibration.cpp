@@ -29,12 +29,11 @@ constexpr float kFloorFrames = 2;
 constexpr float kUpright = 0.9f;
 constexpr double kUprightShare = 0.05;
 
-float component(Vec3 v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 // The axis nearest to `v`.
 int main_axis(Vec3 v) {
   int k = 0;
   for (const int i : {1, 2}) {
-    if (std::abs(component(v, i)) > std::abs(component(v, k))) k = i;
+    if (std::abs(v[i]) > std::abs(v[k])) k = i;
   }
   return k;
 }
@@ -96,11 +95,11 @@ class Calibrator {
     const Vec3 rest = at_rest(top) - (at_rest(left_foot) + at_rest(right_foot)) * 0.5f;
     const int k = main_axis(rest);
     const auto upright = std::count_if(ways.begin(), ways.end(), [&](Vec3 way) {
-      return component(way, k) * std::copysign(1.0f, component(rest, k)) > kUpright * length(way);
+      return way[k] * std::copysign(1.0f, rest[k]) > kUpright * length(way);
     });
     const Vec3 mean = (sum / double(ways.size())).as<float>();
     const Vec3 up = upright >= kUprightShare * ways.size() ? rest : mean;
-    out_.up_axis = {component(up, main_axis(up)) < 0 ? '-' : '+', "XYZ"[main_axis(up)]};
+    out_.up_axis = {up[main_axis(up)] < 0 ? '-' : '+', "XYZ"[main_axis(up)]};
     out_.y_up = *turn_up(out_.up_axis);
     if (out_.up_axis != "+Y") out_.notes.push_back("up is " + out_.up_axis);
   }

@@ -47,7 +47,7 @@ Affine of_node(const Json& node) {
   Affine out = affine_move({v[0], v[1], v[2]});
   for (size_t c = 0; c < 3; ++c) {
     Vec3d axis;
-    axis_of(axis, c) = s[c];
+    axis[c] = s[c];
     const Vec3d column = rotate(turn, axis);
     out[0][c] = column.x, out[1][c] = column.y, out[2][c] = column.z;
   }

@@ -15,9 +15,9 @@ Affine matrix_of(const FbxTransform& of) {
   Affine out = affine_move(of.translation);
   for (size_t c = 0; c < 3; ++c) {
     Vec3d column;
-    axis_of(column, c) = axis_of(scale, c);
+    column[c] = scale[c];
     column = rotate(of.rotation, column);
-    for (size_t r = 0; r < 3; ++r) out[r][c] = axis_of(column, r);
+    for (size_t r = 0; r < 3; ++r) out[r][c] = column[r];
   }
   return out;
 }

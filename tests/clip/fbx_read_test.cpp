@@ -122,7 +122,7 @@ std::vector<ScenePlace> chain_at(const std::vector<SceneModel>& models,
   for (const SceneModel& model : models) out.push_back(test::saved_place(model));
   for (const test::SceneCurves& of : curves) {
     for (size_t axis = 0; axis < 3; ++axis) {
-      double& number = test::axis_of(out[of.model][static_cast<size_t>(of.part)], axis);
+      double& number = out[of.model][static_cast<size_t>(of.part)][axis];
       // An axis without a curve stays as the model has it.
       number = value_of(of.axes[axis], frame, number);
     }

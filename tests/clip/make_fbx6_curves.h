@@ -40,8 +40,6 @@ struct CurveTake {
 inline constexpr double kCurveRate = 30;  // Frames a second.
 inline constexpr const char* kCurvesOf[] = {"Lcl Translation", "Lcl Rotation", "Lcl Scaling"};
 
-inline double& axis_of(Vec3d& v, size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 class Fbx6CurvesMaker {
  public:
   Fbx6CurvesMaker(const std::vector<CurveModel>& models, const std::vector<CurveTake>& takes)
@@ -85,7 +83,7 @@ class Fbx6CurvesMaker {
         Vec3d rest = models_[model].property(kCurvesOf[what]);
         for (size_t axis = 0; axis < 3; ++axis) {
           text_ += std::string("\t\t\t\t\tChannel: \"") + "XYZ"[axis] +
-                   "\" {\n\t\t\t\t\t\tDefault: " + number(axis_of(rest, axis)) + "\n";
+                   "\" {\n\t\t\t\t\t\tDefault: " + number(rest[axis]) + "\n";
           if (!curves[what][axis].empty()) add_keys(curves[what][axis]);
           text_ += "\t\t\t\t\t}\n";
         }
@@ -157,7 +155,7 @@ inline Vec3d place_by_formula(const std::vector<CurveModel>& models, const Curve
       v[what] = from.property(kCurvesOf[what]);
       for (size_t axis = 0; axis < 3; ++axis) {
         if (curves == take.curves.end() || curves->second[what][axis].empty()) continue;
-        axis_of(v[what], axis) = value_at(curves->second[what][axis], frame);
+        v[what][axis] = value_at(curves->second[what][axis], frame);
       }
     }
     const Vec3d turning = from.property("RotationPivot"), growing = from.property("ScalingPivot");

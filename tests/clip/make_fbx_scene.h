@@ -195,7 +195,7 @@ inline Affine affine_turn(Vec3d degrees, int order) {
   Affine out = affine_move({});
   for (const int axis : kFirstToLast[order]) {
     Vec3d one;
-    axis_of(one, static_cast<size_t>(axis)) = axis_of(degrees, static_cast<size_t>(axis));
+    one[static_cast<size_t>(axis)] = degrees[static_cast<size_t>(axis)];
     out = affine_turn(one) * out;
   }
   return out;
