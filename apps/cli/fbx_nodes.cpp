@@ -112,14 +112,6 @@ std::vector<aiNode*> find_nodes(const FbxScene& fbx, const aiScene& scene) {
   return out;
 }
 
-std::vector<aiNode*> all_nodes(aiNode* root) {
-  std::vector<aiNode*> nodes = {root};
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    nodes.insert(nodes.end(), nodes[i]->mChildren, nodes[i]->mChildren + nodes[i]->mNumChildren);
-  }
-  return nodes;
-}
-
 // Nodes and the joints that meshes follow, by their new names.
 void rename(const FbxScene& fbx, const std::vector<aiNode*>& nodes, aiScene& scene) {
   std::map<std::string, std::string> names;
@@ -128,7 +120,7 @@ void rename(const FbxScene& fbx, const std::vector<aiNode*>& nodes, aiScene& sce
     if (nodes[n]) names.emplace(nodes[n]->mName.C_Str(), fbx.nodes[n].name);
     taken.insert(fbx.nodes[n].name);
   }
-  for (aiNode* node : all_nodes(scene.mRootNode)) {
+  for (aiNode* node : all_nodes(scene)) {
     const std::string old = node->mName.C_Str();
     const auto found = names.find(old);
     std::string name = found == names.end() ? old : found->second;

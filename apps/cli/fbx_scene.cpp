@@ -18,15 +18,6 @@ aiMatrix4x4 to_metres_y_up(const FbxScene& fbx) {
   return {aiVector3D(s, s, s), aiQuaternion(q.w, q.x, q.y, q.z), aiVector3D()};
 }
 
-// Parents before children.
-std::vector<aiNode*> all_nodes(const aiScene& scene) {
-  std::vector<aiNode*> nodes = {scene.mRootNode};
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    nodes.insert(nodes.end(), nodes[i]->mChildren, nodes[i]->mChildren + nodes[i]->mNumChildren);
-  }
-  return nodes;
-}
-
 std::span<aiAnimation* const> animations_of(const aiScene& scene) {
   return {scene.mAnimations, scene.mNumAnimations};
 }
@@ -221,6 +212,14 @@ void remove_scales(const aiScene& scene) {
 }
 
 }  // namespace
+
+std::vector<aiNode*> all_nodes(const aiScene& scene) {
+  std::vector<aiNode*> nodes = {scene.mRootNode};
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    nodes.insert(nodes.end(), nodes[i]->mChildren, nodes[i]->mChildren + nodes[i]->mNumChildren);
+  }
+  return nodes;
+}
 
 void move_mesh(aiMesh& mesh, const aiMatrix4x4& by) {
   const aiMatrix3x3 turn = aiMatrix3x3(aiMatrix4x4(by).Inverse().Transpose());

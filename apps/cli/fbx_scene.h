@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include <assimp/scene.h>
 
@@ -22,6 +23,8 @@ void set_nodes(const FbxScene& fbx, aiScene& scene);
 // and limits each vertex to four joints, with weights that sum to one.
 void repair_scene(const FbxScene& fbx, aiScene& scene);
 
+// All nodes, parents before children.
+std::vector<aiNode*> all_nodes(const aiScene& scene);
 // Whether a matrix can be inverted.
 inline bool is_usable(const aiMatrix4x4& m) { return std::isnormal(m.Determinant()); }
 // Transforms the vertices of a mesh by `by`, and its bones' offsets by the inverse.

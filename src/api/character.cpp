@@ -23,13 +23,7 @@ panache_status panache_character_create(const panache_model* model,
     const auto given = read_struct(options, initial, "panache_character_options");
     if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error());
     LiveOptions how;
-    how.stylizer.ease_seconds = given->ease_seconds;
-    how.stylizer.smoothing_seconds = given->smoothing_seconds;
-    how.stylizer.foot_lock = given->hold_feet != 0;
-    how.stylizer.root = given->style_root != 0;
-    how.stylizer.max_speed = read_max_speed(given->max_speed);
-    how.stylizer.gesture_rate = given->gesture_rate;
-    how.stylizer.gesture_seed = given->gesture_seed;
+    how.stylizer = read_stylizer_options(*given);
     how.max_lag = given->max_lag;
     how.max_lead = given->max_lead;
     how.skip_cycles = given->skip_cycles != 0;

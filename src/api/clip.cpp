@@ -62,13 +62,7 @@ Result<RestyleOptions> read_options(const panache_stylize_options* options, cons
   const Result<Shape> shape = read_shape(given->shape);
   if (!shape) return shape.error();
   RestyleOptions out;
-  out.stylizer.ease_seconds = given->ease_seconds;
-  out.stylizer.smoothing_seconds = given->smoothing_seconds;
-  out.stylizer.foot_lock = given->hold_feet != 0;
-  out.stylizer.root = given->style_root != 0;
-  out.stylizer.max_speed = read_max_speed(given->max_speed);
-  out.stylizer.gesture_rate = given->gesture_rate;
-  out.stylizer.gesture_seed = given->gesture_seed;
+  out.stylizer = read_stylizer_options(*given);
   out.timing = given->style_timing != 0;
   out.stylizer.tempo_everywhere = given->style_timing == 2;
   out.stylizer.shape = *shape;

@@ -13,6 +13,7 @@
 #include "rig/rig.h"
 #include "style/model/model.h"
 #include "style/stages/shape.h"
+#include "style/stylizer_options.h"
 
 namespace panache::api {
 
@@ -101,6 +102,20 @@ inline Result<PersonNumbers> read_person(const Model& model, const float* number
 // Metres per second; 0 means no limit.
 inline float read_max_speed(double given) {
   return given == 0 ? std::numeric_limits<float>::infinity() : static_cast<float>(given);
+}
+
+// The options that clips and characters share.
+template <class T>
+StylizerOptions read_stylizer_options(const T& given) {
+  StylizerOptions out;
+  out.ease_seconds = given.ease_seconds;
+  out.smoothing_seconds = given.smoothing_seconds;
+  out.foot_lock = given.hold_feet != 0;
+  out.root = given.style_root != 0;
+  out.max_speed = read_max_speed(given.max_speed);
+  out.gesture_rate = given.gesture_rate;
+  out.gesture_seed = given.gesture_seed;
+  return out;
 }
 
 }  // namespace panache::api

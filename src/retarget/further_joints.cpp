@@ -15,10 +15,6 @@ namespace {
 // A human joint, and the name of a row below it: a finger or the twist joints.
 using Row = std::pair<int, std::string>;
 
-bool has_any(const JointName& name, std::initializer_list<std::string_view> words) {
-  return std::any_of(words.begin(), words.end(), [&](auto word) { return name.has(word); });
-}
-
 // "thumb", "index", ... from the name; 3ds Max numbers fingers from 0 and their joints by a second
 // digit ("Finger11"), Rokoko numbers digits from 1.
 std::string finger_of(const JointName& name) {

@@ -34,17 +34,13 @@ Vec3 toe_place(const BodyPose& body, const HumanPositions& joints, const BodyCha
   return mid_hip(body) + change.translation + joints[index(kToes[foot])];
 }
 
-void bend_leg(int foot, Vec3 shift, const HumanPositions& joints, BodyChange& change) {
+void bend_leg(int foot, Vec3 shift, HumanPositions joints, BodyChange& change) {
   if (shift == Vec3{}) return;
-  const int hip = index(kUpperLegs[foot]), knee = index(kLowerLegs[foot]);
-  const int ankle = index(kAnkles[foot]);
-  const Vec3 ahead = normalized(joints[index(kToes[foot])] - joints[ankle]) + Vec3{0, 0, 0.5f};
+  const LimbJoints leg = leg_joints(foot);
+  const Vec3 ankle = joints[leg.end], ahead = knee_way(ankle, joints[index(kToes[foot])]);
   const float firm = kFirm * std::min(1.0f, length(shift) / kFirmShift);
-  const TwoBoneTurn turn =
-      two_bone_ik(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift,
-                  bend_of(joints[hip], joints[knee], joints[ankle], ahead, firm));
-  change.rotations[hip] = normalized(turn.upper * change.rotations[hip]);
-  change.rotations[knee] = normalized(turn.lower * change.rotations[knee]);
+  const Vec3 bend = bend_of(joints[leg.root], joints[leg.middle], ankle, ahead, firm);
+  turn_limb(leg, ankle + shift, bend, joints, change);
 }
 
 // A smooth curve that is at least `depths` everywhere.

@@ -106,6 +106,10 @@ JointName parse_joint_name(std::string_view name) {
   return out;
 }
 
+bool has_any(const JointName& name, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(), [&](auto word) { return name.has(word); });
+}
+
 std::vector<std::string> without_number(const std::vector<std::string>& words) {
   std::vector<std::string> out = words;
   if (out.size() > 1 && is_digit(out.back().front())) out.pop_back();
@@ -114,11 +118,6 @@ std::vector<std::string> without_number(const std::vector<std::string>& words) {
 
 namespace {
 
-using Words = std::initializer_list<std::string_view>;
-
-bool has_any(const JointName& name, Words words) {
-  return std::any_of(words.begin(), words.end(), [&](auto word) { return name.has(word); });
-}
 bool has_both(const JointName& name, std::string_view a, std::string_view b) {
   return name.has(a) && name.has(b);
 }

@@ -2,6 +2,7 @@
 // Splits a joint's name into words and side, for the naming of any tool: "mixamorig:LeftHand",
 // "Bip01 L Hand", "hand.L", "lHand".
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ struct JointName {
 // is not a letter or digit, between lower and upper case and between letters and digits. Of a name
 // of more than 100 letters, the last 100 count.
 JointName parse_joint_name(std::string_view name);
+
+// Whether it has one of the words.
+bool has_any(const JointName& name, std::initializer_list<std::string_view> words);
 
 // The words without a trailing number, which counts the pieces of a limb ("forearm", "001").
 std::vector<std::string> without_number(const std::vector<std::string>& words);
