@@ -93,13 +93,6 @@ std::vector<Job> jobs_across(const System& system, const std::vector<std::string
   return jobs;
 }
 
-std::vector<Take> takes_of(const std::vector<StyledTake>& outputs) {
-  std::vector<Take> takes;
-  takes.reserve(outputs.size());
-  for (const StyledTake& output : outputs) takes.push_back(output.take);
-  return takes;
-}
-
 // Uses the neutral motion of the performers who show both styles. Empty if no performer does, or
 // if the system cannot mix the two.
 Result<std::optional<MixReport>> evaluate_mix(const System& system, const TestSet& test_set,

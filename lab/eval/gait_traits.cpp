@@ -16,14 +16,8 @@ constexpr double kLeg = 0.85;  // Metres.
 // The range and spacing of stride frequencies (two steps), Hz.
 constexpr double kSlowest = 0.3, kFastest = 2.5, kSpacing = 0.01;
 
-double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
 double deviation(const std::vector<double>& values) {
-  const double middle = mean(values);
+  const double middle = finite_mean(values);
   double squares = 0;
   for (const double value : values) squares += (value - middle) * (value - middle);
   return std::sqrt(squares / static_cast<double>(values.size()));
@@ -36,7 +30,7 @@ double stride_frequency(const Take& take) {
   for (int f = kEased; f < take.frames(); ++f) {
     strides.push_back(double{take.body[f][index(left_foot)].z - take.body[f][index(right_foot)].z});
   }
-  const double middle = mean(strides);
+  const double middle = finite_mean(strides);
   double best = 0, strongest = -1;
   for (double hertz = kSlowest; hertz <= kFastest; hertz += kSpacing) {
     double cosine = 0, sine = 0;

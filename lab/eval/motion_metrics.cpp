@@ -152,6 +152,12 @@ double cadence(const Take& take) {
   return static_cast<double>(passes.size() - 1) * kTakeRate / (passes.back() - passes.front());
 }
 
+double distance_cm(const HumanPositions& a, const HumanPositions& b) {
+  double sum = 0;
+  for (size_t j = 0; j < a.size(); ++j) sum += static_cast<double>(length(a[j] - b[j]));
+  return 100 * sum / static_cast<double>(a.size());
+}
+
 double mean_distance(const Take& take, const Take& from, const std::vector<float>& source_frames) {
   double sum = 0;
   const int frames = std::min(take.frames(), static_cast<int>(source_frames.size()));

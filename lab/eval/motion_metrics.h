@@ -23,6 +23,9 @@ double weighted_skating(const Take& take);
 // travel (below 0.5 m/s) or takes fewer than two steps.
 double cadence(const Take& take);
 
+// Mean distance of the joints of two bodies in one space, centimetres.
+double distance_cm(const HumanPositions& a, const HumanPositions& b);
+
 // Mean distance of the joints between frame i of `take` and frame source_frames[i] of `from`, both
 // in the body frame, metres.
 double mean_distance(const Take& take, const Take& from, const std::vector<float>& source_frames);

@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "eval/discriminant.h"
+#include "eval/motion_metrics.h"
 #include "eval/report_numbers.h"
 #include "eval/report_ood.h"
 #include "learn/learn_person.h"
@@ -33,12 +34,6 @@ HumanPositions mean_pose(const std::vector<HumanPositions>& poses) {
     }
   }
   return mean;
-}
-
-double distance_cm(const HumanPositions& a, const HumanPositions& b) {
-  double sum = 0;
-  for (int j = 0; j < kHumanJoints; ++j) sum += double{length(a[j] - b[j])};
-  return 100 * sum / kHumanJoints;
 }
 
 void add_distances(const std::vector<HumanPositions>& poses, std::vector<double>& out) {

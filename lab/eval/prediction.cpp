@@ -1,6 +1,7 @@
 #include "eval/prediction.h"
 
 #include "base/quat.h"
+#include "eval/motion_metrics.h"
 #include "style/play/pose_predictor.h"
 
 namespace panache {
@@ -13,12 +14,6 @@ HumanPositions between(const HumanPositions& a, const HumanPositions& b, float t
   HumanPositions out;
   for (size_t j = 0; j < out.size(); ++j) out[j] = lerp(a[j], b[j], t);
   return out;
-}
-
-double distance_cm(const HumanPositions& a, const HumanPositions& b) {
-  double sum = 0;
-  for (size_t j = 0; j < a.size(); ++j) sum += static_cast<double>(length(a[j] - b[j]));
-  return 100 * sum / static_cast<double>(a.size());
 }
 
 void add_take(PosePredictor prediction, const Take& take, PredictionRow& row) {

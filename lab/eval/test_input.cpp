@@ -34,11 +34,4 @@ Result<std::vector<TestInput>> load_inputs(const std::vector<ManifestRow>& rows)
   return inputs;
 }
 
-std::vector<Take> takes_of(const std::vector<TestInput>& inputs) {
-  std::vector<Take> takes;
-  takes.reserve(inputs.size());
-  for (const TestInput& input : inputs) takes.push_back(input.take);
-  return takes;
-}
-
 }  // namespace panache

@@ -23,6 +23,13 @@ Result<TestInput> load_input(const ManifestRow& row);
 // Loads on all cores, using only the path of a row; fails with the first file, in order, that
 // cannot be read or mapped.
 Result<std::vector<TestInput>> load_inputs(const std::vector<ManifestRow>& rows);
-std::vector<Take> takes_of(const std::vector<TestInput>& inputs);
+// The takes of TestInput or StyledTake.
+template <class T>
+std::vector<Take> takes_of(const std::vector<T>& list) {
+  std::vector<Take> takes;
+  takes.reserve(list.size());
+  for (const T& entry : list) takes.push_back(entry.take);
+  return takes;
+}
 
 }  // namespace panache
