@@ -37,7 +37,7 @@ Vec3 toe_place(const BodyPose& body, const HumanPositions& joints, const BodyCha
 void bend_leg(int foot, Vec3 shift, HumanPositions joints, BodyChange& change) {
   if (shift == Vec3{}) return;
   const LimbJoints leg = leg_joints(foot);
-  const Vec3 ankle = joints[leg.end], ahead = knee_way(ankle, joints[index(kToes[foot])]);
+  const Vec3 ankle = joints[leg.end], ahead = knee_direction(ankle, joints[index(kToes[foot])]);
   const float firm = kFirm * std::min(1.0f, length(shift) / kFirmShift);
   const Vec3 bend = bend_of(joints[leg.root], joints[leg.middle], ankle, ahead, firm);
   turn_limb(leg, ankle + shift, bend, joints, change);
