@@ -10,6 +10,7 @@
 #include "clip/clip.h"
 #include "pose/changed_joints.h"
 #include "pose/contacts.h"
+#include "pose/limb.h"
 #include "retarget/further_joints.h"
 #include "retarget/ground.h"
 #include "retarget/reference_pose.h"
