@@ -11,27 +11,169 @@ using test::GltfParts;
 using test::Json;
 using test::small_gltf;
 
-// What is said of the small file after `spoil` did something to it.
+// What is said of the small file after `spoil` did something to it, without the file's name.
 std::string spoilt(const std::function<void(GltfParts&)>& spoil) {
   GltfParts parts = small_gltf();
   spoil(parts);
-  return gltf_rejection(parts);
+  const std::string out = gltf_rejection(parts);
+  return out.starts_with("walk.glb: ") ? out.substr(10) : out;
 }
 std::string spoilt_json(const std::function<void(Json&)>& spoil) {
   return spoilt([&](GltfParts& parts) { spoil(parts.json); });
 }
 
+// One member of the small file's JSON gets this value, or goes where that is "gone".
+struct Member {
+  const char *pointer, *value;
+  std::string message;
+};
+void set(Json& json, const Member& member) {
+  const Json::json_pointer at(member.pointer);
+  if (member.value == std::string("gone")) {
+    json[at.parent_pointer()].erase(at.back());
+  } else {
+    json[at] = Json::parse(member.value);
+  }
+}
+
+const std::string kOutput = "animations[0].samplers[0].output (accessors[1]): ";
+const std::string kTooMuch =
+    "animations[0]: expected at most 500000 frames, and frames times joints in all animations at "
+    "most 3000000, found more";
+
+TEST(GltfError, every_member_that_is_wrong_has_its_place_and_message) {
+  const Member cases[] = {
+      {"/asset/version", "\"1.0\"", "asset: expected glTF version 2.0, found '1.0'"},
+      {"/asset/minVersion", "\"2.1\"", "asset: expected glTF version 2.0, found '2.1'"},
+      // A tree that is none.
+      {"/nodes/2/children/0", "0", "nodes: expected a tree, found nodes that are below themselves"},
+      {"/nodes/3/children/0", "2",
+       "nodes[3].children[0]: expected a node without another parent, found node 2, a child of "
+       "node 1"},
+      {"/nodes/3/children/0", "4",
+       "nodes[3].children[0]: expected a whole number below 4, found 4"},
+      {"/skins/0/joints/1", "-1", "skins[0].joints[1]: expected a whole number below 4, found -1"},
+      {"/nodes/1/translation", "[1, 2]",
+       "nodes[1].translation: expected 3 numbers, found a list of 2"},
+      {"/nodes/1/translation/1", "2e9",
+       "nodes[1].translation[1]: expected a number between -1e9 and 1e9, found 2000000000.0"},
+      // Animations that point nowhere.
+      {"/animations/0/channels/1/sampler", "2",
+       "animations[0].channels[1].sampler: expected a whole number below 2, found 2"},
+      {"/animations/0/channels/1/target/node", "9",
+       "animations[0].channels[1].target.node: expected a whole number below 4, found 9"},
+      {"/animations/0/channels/1/sampler", "gone",
+       "animations[0].channels[1]: expected a sampler and a target, one of the two is missing"},
+      {"/animations/0/channels/1/target/path", "\"rotation\"",
+       "animations[0].channels[1]: expected a target of its own, found that of a channel before "
+       "it"},
+      {"/animations/0/samplers/0/input", "77",
+       "animations[0].samplers[0].input: expected a whole number below 3, found 77"},
+      {"/animations/0/samplers/0/interpolation", "\"SMOOTH\"",
+       "animations[0].samplers[0].interpolation: expected LINEAR, STEP or CUBICSPLINE, found "
+       "'SMOOTH'"},
+      {"/animations/0/samplers/0/output", "2",
+       "animations[0].samplers[0].output: expected vectors of 4 numbers, in number 4 for 4 times, "
+       "found 4 of 3"},
+      {"/animations/0/samplers/0/interpolation", "\"CUBICSPLINE\"",
+       "animations[0].samplers[0].output: expected vectors of 4 numbers, in number 12 for 4 "
+       "times, found 4 of 4"},
+      // Accessors beyond their data, and such as say nothing known.
+      {"/accessors/1/count", "5",
+       kOutput + "expected 5 elements within the 64 bytes of bufferViews[1], found it too short"},
+      {"/accessors/1/count", "18446744073709551615",
+       kOutput +
+           "expected 18446744073709551615 elements within the 64 bytes of bufferViews[1], found "
+           "it too short"},
+      {"/accessors/1/bufferView", "gone", "(accepted)"},
+      {"/bufferViews/1/byteOffset", "100",
+       "bufferViews[1]: expected a part of the 128 bytes of buffers[0], found 64 bytes from byte "
+       "100 on"},
+      {"/accessors/1/componentType", "5124",
+       kOutput + "expected a componentType of 5120 to 5126, found 5124"},
+      {"/bufferViews/1/extensions/EXT_meshopt_compression", "{}",
+       "animations[0].samplers[0].output: expected plain motion, found it packed with "
+       "EXT_meshopt_compression; 'gltf-transform copy IN.glb OUT.glb' unpacks it"},
+      {"/accessors/1/type", "\"MAT4\"",
+       kOutput + "expected type SCALAR, VEC2, VEC3 or VEC4, found 'MAT4'"},
+      {"/accessors/1/type", "gone", kOutput + "expected type SCALAR, VEC2, VEC3 or VEC4, found ''"},
+      {"/accessors/1/count", "0", kOutput + "expected a count above 0, found 0"},
+      {"/accessors/1/count", "-1", "accessors[1].count: expected a whole number, found -1"},
+      {"/accessors/1/normalized", "1", "accessors[1].normalized: expected true or false, found 1"},
+      {"/accessors/1", "1", "accessors[1]: expected an object, found 1"},
+      {"/bufferViews/1/buffer", "gone", "bufferViews[1]: expected a buffer with data, found none"},
+      {"/bufferViews/1/byteStride", "15",
+       kOutput + "expected 4 elements within the 64 bytes of bufferViews[1], found it too short"},
+      // Members of another kind.
+      {"/nodes/3", "\"Lamp\"", "nodes[3]: expected an object, found \"Lamp\""},
+      {"/nodes/3/name", "3", "nodes[3].name: expected a text, found 3"},
+      {"/skins/0", "true", "skins[0]: expected an object, found true"},
+      {"/images/0", "5", "images[0]: expected an object, found 5"},
+      {"/images/0/mimeType", "5", "images[0].mimeType: expected a text, found 5"},
+      {"/extensions", "1", "extensions: expected an object, found 1"},
+      // A humanoid that is none.
+      {"/extensions/VRMC_vrm_animation", "1",
+       "extensions.VRMC_vrm_animation: expected an object, found 1"},
+      {"/extensions/VRMC_vrm/humanoid/humanBones/hips", "1",
+       "extensions.VRMC_vrm.humanoid.humanBones.hips: expected an object, found 1"},
+      {"/extensions/VRMC_vrm/humanoid/humanBones/hips/node", "4",
+       "extensions.VRMC_vrm.humanoid.humanBones.hips.node: expected a whole number below 4, found "
+       "4"},
+      {"/extensions/VRM/humanoid/humanBones/0", "1",
+       "extensions.VRM.humanoid.humanBones[0]: expected an object, found 1"},
+      {"/extensions/VRM/humanoid/humanBones/0/bone", "1",
+       "extensions.VRM.humanoid.humanBones[0].bone: expected a text, found 1"},
+      {"/extensions/VRMC_vrm_animation/expressions", "1",
+       "extensions.VRMC_vrm_animation.expressions: expected an object, found 1"},
+      {"/extensions/VRMC_vrm_animation/expressions/custom", "1",
+       "extensions.VRMC_vrm_animation.expressions.custom: expected an object, found 1"},
+      {"/extensions/VRMC_vrm_animation/expressions/preset/happy", "1",
+       "extensions.VRMC_vrm_animation.expressions.preset.happy: expected an object, found 1"},
+      {"/extensions/VRMC_vrm_animation/lookAt/node", "4",
+       "extensions.VRMC_vrm_animation.lookAt.node: expected a whole number below 4, found 4"},
+  };
+  for (const Member& member : cases) {
+    SCOPED_TRACE(member.pointer);
+    EXPECT_EQ(spoilt_json([&](Json& json) { set(json, member); }), member.message);
+  }
+}
+
+TEST(GltfError, sparse_accessors_that_are_no_whole) {
+  const Member cases[] = {
+      {"/values/bufferView", "1", "(accepted)"},
+      {"/values", "gone",
+       kOutput + "expected indices and values in sparse, one of the two is missing"},
+      {"/indices", "gone",
+       kOutput + "expected indices and values in sparse, one of the two is missing"},
+      {"/indices/componentType", "5126",
+       kOutput + "expected sparse indices of type 5121, 5123 or 5125, found 5126"},
+      {"/values/bufferView", "gone",
+       "accessors[1].sparse.values: expected a bufferView, found none"},
+      // The last byte of the second time: a thirtieth of a second is 0x3d088889.
+      {"/indices/byteOffset", "7", kOutput + "expected sparse indices below 4, found 61"},
+      {"/count", "5",
+       kOutput + "expected at most 4 sparse elements, as many as there are elements, found 5"},
+  };
+  for (const Member& member : cases) {
+    SCOPED_TRACE(member.pointer);
+    EXPECT_EQ(spoilt_json([&](Json& json) {
+                // The first time, as an index: byte 0.
+                Json& sparse = json["accessors"][1]["sparse"];
+                sparse["count"] = 1;
+                sparse["indices"] = {{"bufferView", 0}, {"componentType", 5121}};
+                sparse["values"]["bufferView"] = 1;
+                set(sparse, member);
+              }),
+              member.message);
+  }
+}
+
 TEST(GltfError, a_file_that_is_no_gltf) {
-  EXPECT_EQ(gltf_rejection(std::string("HIERARCHY")),
-            "walk.glb: expected glTF, found text that is not JSON; is the file complete?");
-  EXPECT_EQ(gltf_rejection(std::string("[1, 2]")),
-            "walk.glb: expected glTF, a JSON object, found a list of 2");
-  EXPECT_EQ(gltf_rejection(std::string("{}")),
-            "walk.glb: asset: expected glTF's version in it, found nothing");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["asset"]["version"] = "1.0"; }),
-            "walk.glb: asset: expected glTF version 2.0, found '1.0'");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["asset"]["minVersion"] = "2.1"; }),
-            "walk.glb: asset: expected glTF version 2.0, found '2.1'");
+  const std::pair<std::string, std::string> cases[] = {
+      {"HIERARCHY", "expected glTF, found text that is not JSON; is the file complete?"},
+      {"[1, 2]", "expected glTF, a JSON object, found a list of 2"},
+      {"{}", "asset: expected glTF's version in it, found nothing"}};
+  for (const auto& [text, message] : cases) EXPECT_EQ(gltf_rejection(text), "walk.glb: " + message);
 }
 
 TEST(GltfError, a_glb_that_was_cut) {
@@ -77,91 +219,45 @@ TEST(GltfError, nesting_and_size_of_the_json) {
             "object, found more");
 }
 
-TEST(GltfError, a_tree_that_is_none) {
-  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][2]["children"].push_back(0); }),
-            "walk.glb: nodes: expected a tree, found nodes that are below themselves");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][3]["children"].push_back(2); }),
-            "walk.glb: nodes[3].children[0]: expected a node without another parent, found node 2, "
-            "a child of node 1");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][3]["children"].push_back(4); }),
-            "walk.glb: nodes[3].children[0]: expected a whole number below 4, found 4");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["skins"][0]["joints"][1] = -1; }),
-            "walk.glb: skins[0].joints[1]: expected a whole number below 4, found -1");
-  EXPECT_EQ(spoilt_json([](Json& j) {
-              j["nodes"][1]["translation"] = {1, 2};
-            }),
-            "walk.glb: nodes[1].translation: expected 3 numbers, found a list of 2");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][1]["translation"][1] = 2e9; }),
-            "walk.glb: nodes[1].translation[1]: expected a number between -1e9 and 1e9, found "
-            "2000000000.0");
+TEST(GltfError, trees_and_sizes_beyond_the_limits) {
   EXPECT_EQ(spoilt_json([](Json& j) {
               j.erase("skins");
               j.erase("animations");
             }),
-            "walk.glb: expected a skin or an animated node, found neither");
+            "expected a skin or an animated node, found neither");
   EXPECT_EQ(spoilt_json([](Json& j) {
               for (int i = 4; i < 1100; ++i) {
                 j["nodes"][static_cast<size_t>(i - 1)]["children"].push_back(i);
                 j["nodes"].push_back(Json::object());
               }
             }),
-            "walk.glb: nodes: expected at most 1000 one below the other, found more");
+            "nodes: expected at most 1000 one below the other, found more");
   EXPECT_EQ(spoilt_json([](Json& j) {
               for (int i = 0; i < 10'000; ++i) j["nodes"].push_back(Json::object());
             }),
-            "walk.glb: nodes: expected at most 10000, found 10004");
+            "nodes: expected at most 10000, found 10004");
   EXPECT_EQ(spoilt_json([](Json& j) {
               j["nodes"][0]["scale"] = {1e8, 1e8, 1e8};
               j["nodes"][1]["scale"] = {1e8, 1e8, 1e8};
             }),
-            "walk.glb: nodes[2]: expected a position and a scale between -1e9 and 1e9, found them "
-            "larger by the scales of the nodes above");
+            "nodes[2]: expected a position and a scale between -1e9 and 1e9, found them larger by "
+            "the scales of the nodes above");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][1]["name"] = std::string(1000, 'n'); }),
+            "(accepted)");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][1]["name"] = std::string(1001, 'n'); }),
+            "nodes[1]: expected a name of at most 1000 bytes, found 1001");
+  EXPECT_EQ(spoilt_json([](Json& j) {
+              j["animations"].get_ref<Json::array_t&>().resize(10'001, Json::object());
+            }),
+            "animations: expected at most 10000, found 10001");
 }
 
-TEST(GltfError, animations_that_point_nowhere) {
-  const auto with = [](const std::function<void(Json&)>& spoil) {
-    return spoilt_json([&](Json& j) { spoil(j["animations"][0]); });
-  };
-  EXPECT_EQ(
-      with([](Json& a) { a["channels"][1]["sampler"] = 2; }),
-      "walk.glb: animations[0].channels[1].sampler: expected a whole number below 2, found 2");
-  EXPECT_EQ(with([](Json& a) { a["channels"][1]["target"]["node"] = 9; }),
-            "walk.glb: animations[0].channels[1].target.node: expected a whole number below 4, "
-            "found 9");
-  EXPECT_EQ(with([](Json& a) { a["channels"][1].erase("sampler"); }),
-            "walk.glb: animations[0].channels[1]: expected a sampler and a target, one of the two "
-            "is missing");
-  EXPECT_EQ(with([](Json& a) { a["channels"][1]["target"]["path"] = "rotation"; }),
-            "walk.glb: animations[0].channels[1]: expected a target of its own, found that of a "
-            "channel before it");
-  EXPECT_EQ(with([](Json& a) { a["samplers"][0]["input"] = 77; }),
-            "walk.glb: animations[0].samplers[0].input: expected a whole number below 3, found 77");
-  EXPECT_EQ(with([](Json& a) { a["samplers"][0]["interpolation"] = "SMOOTH"; }),
-            "walk.glb: animations[0].samplers[0].interpolation: expected LINEAR, STEP or "
-            "CUBICSPLINE, found 'SMOOTH'");
-  EXPECT_EQ(with([](Json& a) { a["samplers"][0]["output"] = 2; }),
-            "walk.glb: animations[0].samplers[0].output: expected vectors of 4 numbers, in number "
-            "4 for 4 times, found 4 of 3");
-  EXPECT_EQ(with([](Json& a) { a["samplers"][0]["interpolation"] = "CUBICSPLINE"; }),
-            "walk.glb: animations[0].samplers[0].output: expected vectors of 4 numbers, in number "
-            "12 for 4 times, found 4 of 4");
-}
-
-TEST(GltfError, accessors_beyond_their_data) {
-  EXPECT_EQ(spoilt_json([](Json& j) { j["accessors"][1]["count"] = 5; }),
-            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected 5 elements within "
-            "the 64 bytes of bufferViews[1], found it too short");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["accessors"][1]["count"] = 0xffffffffffffffff; }),
-            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected "
-            "18446744073709551615 elements within the 64 bytes of bufferViews[1], found it too "
-            "short");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["accessors"][1].erase("bufferView"); }), "(accepted)");
+TEST(GltfError, accessors_without_a_view) {
   EXPECT_EQ(spoilt_json([](Json& j) {
               j["accessors"][1].erase("bufferView");
               j["accessors"][1]["count"] = 4'000'000'000u;
             }),
-            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected fewer zeros than "
-            "the file has bytes, found 4000000000");
+            kOutput + "expected fewer zeros than the file has bytes, found 4000000000");
   EXPECT_EQ(spoilt_json([](Json& j) {
               Json& accessor = j["accessors"][1];
               accessor.erase("bufferView");
@@ -172,27 +268,10 @@ TEST(GltfError, accessors_beyond_their_data) {
               j["animations"][0]["samplers"][0]["input"] = 1;
               j.erase("bufferViews");
             }),
-            "walk.glb: accessors[1].sparse.indices.bufferView: expected a whole number below 0, "
-            "found 0");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["bufferViews"][1]["byteOffset"] = 100; }),
-            "walk.glb: bufferViews[1]: expected a part of the 128 bytes of buffers[0], found 64 "
-            "bytes from byte 100 on");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["accessors"][1]["componentType"] = 5124; }),
-            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected a componentType "
-            "of 5120 to 5126, found 5124");
-  EXPECT_EQ(spoilt_json([](Json& j) {
-              j["bufferViews"][1]["extensions"]["EXT_meshopt_compression"] = Json::object();
-            }),
-            "walk.glb: animations[0].samplers[0].output: expected plain motion, found it packed "
-            "with EXT_meshopt_compression; 'gltf-transform copy IN.glb OUT.glb' unpacks it");
+            "accessors[1].sparse.indices.bufferView: expected a whole number below 0, found 0");
 }
 
 TEST(GltfError, more_motion_than_a_file_of_its_size_has) {
-  const auto with = [](const std::function<void(Json&)>& spoil) { return spoilt_json(spoil); };
-  EXPECT_EQ(with([](Json& j) {
-              j["animations"].get_ref<Json::array_t&>().resize(10'001, Json::object());
-            }),
-            "walk.glb: animations: expected at most 10000, found 10001");
   // Two keys that are far apart, on a few joints and on many.
   const auto lasting = [](float seconds, int joints) {
     GltfParts parts = small_gltf();
@@ -210,138 +289,24 @@ TEST(GltfError, more_motion_than_a_file_of_its_size_has) {
   };
   EXPECT_EQ(lasting(100, 0), "(accepted)");
   EXPECT_EQ(lasting(100, 900), "(accepted)");
-  EXPECT_EQ(lasting(200, 900),
-            "walk.glb: animations[0]: expected at most 500000 frames, and frames times joints in "
-            "all animations at most 3000000, found more");
-}
-
-TEST(GltfError, accessors_that_say_nothing_known) {
-  const std::string output = "walk.glb: animations[0].samplers[0].output (accessors[1]): ";
-  const auto with = [](const std::function<void(Json&)>& spoil) {
-    return spoilt_json([&](Json& j) { spoil(j["accessors"][1]); });
-  };
-  EXPECT_EQ(with([](Json& a) { a["type"] = "MAT4"; }),
-            output + "expected type SCALAR, VEC2, VEC3 or VEC4, found 'MAT4'");
-  EXPECT_EQ(with([](Json& a) { a.erase("type"); }),
-            output + "expected type SCALAR, VEC2, VEC3 or VEC4, found ''");
-  EXPECT_EQ(with([](Json& a) { a["count"] = 0; }), output + "expected a count above 0, found 0");
-  EXPECT_EQ(with([](Json& a) { a["count"] = -1; }),
-            "walk.glb: accessors[1].count: expected a whole number, found -1");
-  EXPECT_EQ(with([](Json& a) { a["normalized"] = 1; }),
-            "walk.glb: accessors[1].normalized: expected true or false, found 1");
-  EXPECT_EQ(with([](Json& a) { a = 1; }), "walk.glb: accessors[1]: expected an object, found 1");
-  const auto with_view = [](const std::function<void(Json&)>& spoil) {
-    return spoilt_json([&](Json& j) { spoil(j["bufferViews"][1]); });
-  };
-  EXPECT_EQ(with_view([](Json& v) { v.erase("buffer"); }),
-            "walk.glb: bufferViews[1]: expected a buffer with data, found none");
-  EXPECT_EQ(with_view([](Json& v) { v["byteStride"] = 15; }),
-            output +
-                "expected 4 elements within the 64 bytes of bufferViews[1], found it too "
-                "short");
-}
-
-TEST(GltfError, sparse_accessors_that_are_no_whole) {
-  const std::string output = "walk.glb: animations[0].samplers[0].output (accessors[1]): ";
-  const auto with = [](const std::function<void(Json&)>& spoil) {
-    return spoilt_json([&](Json& j) {
-      // The first time, as an index: byte 0.
-      Json& sparse = j["accessors"][1]["sparse"];
-      sparse["count"] = 1;
-      sparse["indices"] = {{"bufferView", 0}, {"componentType", 5121}};
-      sparse["values"]["bufferView"] = 1;
-      spoil(sparse);
-    });
-  };
-  EXPECT_EQ(with([](Json&) {}), "(accepted)");
-  EXPECT_EQ(with([](Json& s) { s.erase("values"); }),
-            output + "expected indices and values in sparse, one of the two is missing");
-  EXPECT_EQ(with([](Json& s) { s.erase("indices"); }),
-            output + "expected indices and values in sparse, one of the two is missing");
-  EXPECT_EQ(with([](Json& s) { s["indices"]["componentType"] = 5126; }),
-            output + "expected sparse indices of type 5121, 5123 or 5125, found 5126");
-  EXPECT_EQ(with([](Json& s) { s["values"].erase("bufferView"); }),
-            "walk.glb: accessors[1].sparse.values: expected a bufferView, found none");
-  // The last byte of the second time: a thirtieth of a second is 0x3d088889.
-  EXPECT_EQ(with([](Json& s) { s["indices"]["byteOffset"] = 7; }),
-            output + "expected sparse indices below 4, found 61");
-  EXPECT_EQ(with([](Json& s) { s["count"] = 5; }),
-            output + "expected at most 4 sparse elements, as many as there are elements, found 5");
+  EXPECT_EQ(lasting(200, 900), "walk.glb: " + kTooMuch);
 }
 
 TEST(GltfError, numbers_that_are_no_motion) {
   EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(4, 4, p.bin.substr(12, 4)); }),
-            "walk.glb: animations[0].samplers[0].input: expected times that increase, found time 2 "
-            "not after the one before it");
+            "animations[0].samplers[0].input: expected times that increase, found time 2 not after "
+            "the one before it");
   EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(16 + 16 + 4, 4, "\xff\xff\xff\xff"); }),
-            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected numbers "
-            "between -1e9 and 1e9, found another in element 1");
+            kOutput + "expected numbers between -1e9 and 1e9, found another in element 1");
   EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(12, 4, std::string("\0\0\x80\x4d", 4)); }),
-            "walk.glb: animations[0]: expected at most 500000 frames, and frames times joints in "
-            "all animations at most 3000000, found more");
-}
-
-TEST(GltfError, places_that_a_scale_takes_too_far) {
-  EXPECT_EQ(spoilt([](GltfParts& p) {
-              p.json["nodes"][0]["scale"] = {1e6, 1e6, 1e6};
-              const std::vector<float> places = {0, 1, 0, 0, 1e4f, 0, 0, 1, 0, 0, 1, 0};
-              p.json["animations"][0]["samplers"][1]["output"] = p.add(places, "VEC3", 3);
-            }),
-            "walk.glb: animations[0].channels[1]: expected positions between -1e9 and 1e9, found "
-            "one outside");
-}
-
-TEST(GltfError, a_name_beyond_the_limit) {
-  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][1]["name"] = std::string(1000, 'n'); }),
-            "(accepted)");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][1]["name"] = std::string(1001, 'n'); }),
-            "walk.glb: nodes[1]: expected a name of at most 1000 bytes, found 1001");
-}
-
-TEST(GltfError, members_of_another_kind) {
-  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][3] = "Lamp"; }),
-            "walk.glb: nodes[3]: expected an object, found \"Lamp\"");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][3]["name"] = 3; }),
-            "walk.glb: nodes[3].name: expected a text, found 3");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["skins"][0] = true; }),
-            "walk.glb: skins[0]: expected an object, found true");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["images"][0] = 5; }),
-            "walk.glb: images[0]: expected an object, found 5");
-  EXPECT_EQ(spoilt_json([](Json& j) { j["images"][0]["mimeType"] = 5; }),
-            "walk.glb: images[0].mimeType: expected a text, found 5");
-}
-
-TEST(GltfError, a_humanoid_that_is_none) {
-  const auto with = [](const char* extension, const std::function<void(Json&)>& spoil) {
-    return spoilt_json([&](Json& j) { spoil(j["extensions"][extension]); });
-  };
-  const auto with_vrma = [&](const std::function<void(Json&)>& spoil) {
-    return with("VRMC_vrm_animation", spoil);
-  };
-  EXPECT_EQ(spoilt_json([](Json& j) { j["extensions"] = 1; }),
-            "walk.glb: extensions: expected an object, found 1");
-  EXPECT_EQ(with_vrma([](Json& vrma) { vrma = 1; }),
-            "walk.glb: extensions.VRMC_vrm_animation: expected an object, found 1");
-  EXPECT_EQ(with("VRMC_vrm", [](Json& vrm) { vrm["humanoid"]["humanBones"]["hips"] = 1; }),
-            "walk.glb: extensions.VRMC_vrm.humanoid.humanBones.hips: expected an object, found 1");
-  EXPECT_EQ(with("VRMC_vrm", [](Json& vrm) { vrm["humanoid"]["humanBones"]["hips"]["node"] = 4; }),
-            "walk.glb: extensions.VRMC_vrm.humanoid.humanBones.hips.node: expected a whole number "
-            "below 4, found 4");
-  EXPECT_EQ(with("VRM", [](Json& vrm) { vrm["humanoid"]["humanBones"][0] = 1; }),
-            "walk.glb: extensions.VRM.humanoid.humanBones[0]: expected an object, found 1");
-  EXPECT_EQ(with("VRM", [](Json& vrm) { vrm["humanoid"]["humanBones"][0]["bone"] = 1; }),
-            "walk.glb: extensions.VRM.humanoid.humanBones[0].bone: expected a text, found 1");
-  EXPECT_EQ(with_vrma([](Json& vrma) { vrma["expressions"] = 1; }),
-            "walk.glb: extensions.VRMC_vrm_animation.expressions: expected an object, found 1");
-  EXPECT_EQ(with_vrma([](Json& vrma) { vrma["expressions"]["custom"] = 1; }),
-            "walk.glb: extensions.VRMC_vrm_animation.expressions.custom: expected an object, found "
-            "1");
-  EXPECT_EQ(with_vrma([](Json& vrma) { vrma["expressions"]["preset"]["happy"] = 1; }),
-            "walk.glb: extensions.VRMC_vrm_animation.expressions.preset.happy: expected an object, "
-            "found 1");
-  EXPECT_EQ(with_vrma([](Json& vrma) { vrma["lookAt"]["node"] = 4; }),
-            "walk.glb: extensions.VRMC_vrm_animation.lookAt.node: expected a whole number below 4, "
-            "found 4");
+            kTooMuch);
+  EXPECT_EQ(
+      spoilt([](GltfParts& p) {
+        p.json["nodes"][0]["scale"] = {1e6, 1e6, 1e6};
+        const std::vector<float> places = {0, 1, 0, 0, 1e4f, 0, 0, 1, 0, 0, 1, 0};
+        p.json["animations"][0]["samplers"][1]["output"] = p.add(places, "VEC3", 3);
+      }),
+      "animations[0].channels[1]: expected positions between -1e9 and 1e9, found one outside");
 }
 
 TEST(GltfError, a_vrm_animation_without_hips) {
