@@ -84,16 +84,10 @@ TEST(Calibration, any_axis_may_be_up_and_any_unit_a_metre) {
 
 // A body that stands at y = 1 and rises by 1 cm a frame.
 Clip standing(int frames) {
-  const MadeUp rig = make_up({{"Hips", "", hips},
-                              {"Chest", "Hips", chest},
-                              {"Head", "Chest", head},
-                              {"Arm_*", "Chest", left_upper_arm},
-                              {"Elbow_*", "Arm_*", left_lower_arm},
-                              {"Hand_*", "Elbow_*", left_hand},
-                              {"Thigh_*", "Hips", left_upper_leg},
-                              {"Knee_*", "Thigh_*", left_lower_leg},
-                              {"Foot_*", "Knee_*", left_foot},
-                              {"Toes_*", "Foot_*", left_toes}},
+  const MadeUp rig = make_up(tree(R"(
+Hips, hips > Chest, chest > Head, head;
+Chest > Arm_*, leftUpperArm > Elbow_*, leftLowerArm > Hand_*, leftHand;
+Hips > Thigh_*, leftUpperLeg > Knee_*, leftLowerLeg > Foot_*, leftFoot > Toes_*, leftToes)"),
                              "L", "R");
   Clip out = rig.clip();
   const size_t joints = out.joints();

@@ -33,11 +33,8 @@ std::string message(std::vector<Line> lines, const std::vector<Line>& more,
 }
 
 TEST(Doubtful, a_torso_of_controls_with_limbs_that_deform_is_rejected) {
-  const std::vector<Line> lines = {{"root", "", hips, 0},
-                                   {"torso", "root", hips},
-                                   {"spine_fk.002", "torso", spine},
-                                   {"ORG-spine.003", "spine_fk.002", chest},
-                                   {"head", "ORG-spine.003", head}};
+  const std::vector<Line> lines = tree(R"(
+root, hips 0 > torso, hips > spine_fk.002, spine > ORG-spine.003, chest > head, head)");
   EXPECT_EQ(message(lines, limbs("ORG-spine.003", "torso")),
             "doubtful: hips would be 'torso', a control, and leftUpperArm 'DEF-upper_arm.L', which "
             "deforms the mesh and does not follow it in the file; expected the joints that deform "
@@ -49,13 +46,9 @@ TEST(Doubtful, a_torso_of_controls_with_limbs_that_deform_is_rejected) {
 }
 
 TEST(Doubtful, arms_beside_the_spine_are_rejected) {
-  const std::vector<Line> spine_alone = {{"rig", "", hips},
-                                         {"DEF-spine", "rig", spine, 0.1f},
-                                         {"DEF-spine.001", "DEF-spine", spine, 0.5f},
-                                         {"DEF-spine.002", "DEF-spine.001", spine},
-                                         {"DEF-spine.003", "DEF-spine.002", chest},
-                                         {"DEF-spine.004", "DEF-spine.003", neck},
-                                         {"DEF-spine.006", "DEF-spine.004", head}};
+  const std::vector<Line> spine_alone = tree(R"(
+rig, hips > DEF-spine, spine 0.1 > DEF-spine.001, spine 0.5 > DEF-spine.002, spine
+  > DEF-spine.003, chest > DEF-spine.004, neck > DEF-spine.006, head)");
   EXPECT_EQ(message(spine_alone, limbs("rig", "rig")),
             "doubtful: leftUpperArm 'DEF-upper_arm.L' does not hang on the spine 'DEF-spine', but "
             "beside it on 'rig'; expected the joints that deform the mesh in one hierarchy, a map "
@@ -64,19 +57,11 @@ TEST(Doubtful, arms_beside_the_spine_are_rejected) {
 
 // The same without names that tell: the skin does.
 TEST(Doubtful, a_skin_that_the_hips_do_not_move_is_rejected) {
-  const std::vector<Line> lines = {{"root", "", hips, 0},
-                                   {"torso", "root", hips},
-                                   {"spine control", "torso", spine},
-                                   {"chest control", "spine control", chest},
-                                   {"head control", "chest control", head},
-                                   {"belly", "root", spine},
-                                   {"breast", "belly", chest},
-                                   {"arm.*", "chest control", left_upper_arm},
-                                   {"forearm.*", "arm.*", left_lower_arm},
-                                   {"hand.*", "forearm.*", left_hand},
-                                   {"thigh.*", "torso", left_upper_leg},
-                                   {"shin.*", "thigh.*", left_lower_leg},
-                                   {"foot.*", "shin.*", left_foot}};
+  const std::vector<Line> lines = tree(R"(
+root, hips 0 > torso, hips > spine control, spine > chest control, chest > head control, head;
+root > belly, spine > breast, chest;
+chest control > arm.*, leftUpperArm > forearm.*, leftLowerArm > hand.*, leftHand;
+torso > thigh.*, leftUpperLeg > shin.*, leftLowerLeg > foot.*, leftFoot)");
   const auto with_weights = [&](float torso, int skin) {
     Clip clip = make_up(lines, "L", "R").clip();
     for (Joint& joint : clip.skeleton.joints) {
@@ -102,17 +87,11 @@ TEST(Doubtful, a_skin_that_the_hips_do_not_move_is_rejected) {
 
 // Rigify's metarig, left in the file beside a rig that deforms in one hierarchy.
 TEST(Doubtful, a_skeleton_that_moves_no_mesh_beside_one_that_does_is_rejected) {
-  const std::vector<Line> lines = {{"metarig", "", hips, 0},
-                                   {"spine", "metarig", hips},
-                                   {"spine.003", "spine", chest},
-                                   {"head", "spine.003", head},
-                                   {"upper_arm.*", "spine.003", left_upper_arm},
-                                   {"forearm.*", "upper_arm.*", left_lower_arm},
-                                   {"hand.*", "forearm.*", left_hand},
-                                   {"thigh.*", "spine", left_upper_leg},
-                                   {"shin.*", "thigh.*", left_lower_leg},
-                                   {"foot.*", "shin.*", left_foot},
-                                   {"rig", "", hips, 0}};
+  const std::vector<Line> lines = tree(R"(
+metarig, hips 0 > spine, hips > spine.003, chest > head, head;
+spine.003 > upper_arm.*, leftUpperArm > forearm.*, leftLowerArm > hand.*, leftHand;
+spine > thigh.*, leftUpperLeg > shin.*, leftLowerLeg > foot.*, leftFoot;
+rig, hips 0)");
   Clip clip = make_up(lines, "L", "R").clip();
   const auto rejection = [&] {
     const Result<Rig> rig = Rig::create(clip);
@@ -137,11 +116,8 @@ TEST(Doubtful, a_skeleton_that_moves_no_mesh_beside_one_that_does_is_rejected) {
 }
 
 TEST(Doubtful, rigs_that_deform_in_one_hierarchy_are_not) {
-  const std::vector<Line> lines = {{"rig", "", hips, 0},
-                                   {"DEF-spine", "rig", hips},
-                                   {"DEF-spine.002", "DEF-spine", spine},
-                                   {"DEF-spine.003", "DEF-spine.002", chest},
-                                   {"DEF-spine.006", "DEF-spine.003", head}};
+  const std::vector<Line> lines = tree(R"(
+rig, hips 0 > DEF-spine, hips > DEF-spine.002, spine > DEF-spine.003, chest > DEF-spine.006, head)");
   EXPECT_EQ(message(lines, limbs("DEF-spine.003", "DEF-spine")), "");
   // A body with nothing but a head on it has no spine that the arms could hang on.
   EXPECT_EQ(message({{"body", "", hips}, {"head", "body", head}}, limbs("body", "body")), "");

@@ -2,9 +2,12 @@
 // Skeletons as other makers name and build them, in the canonical body's T-pose, and motion on
 // them.
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <map>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -33,7 +36,44 @@ struct Line {
   std::string name, parent;
   HumanJoint place;
   float along = 1;
+  int human = -1;  // The human joint that a person takes it for.
 };
+
+// Joints as in "Root, hips 0 > Hips, hips = > Belly, spine 0.3; Hips > Body, spine =chest": name,
+// place, how far along where that is not 1, and after '=' what a person takes it for, which is its
+// place where nothing follows. Each hangs on the one before it, or on the one named there.
+inline std::vector<Line> tree(const std::string& text) {
+  std::vector<Line> lines;
+  std::string parent;
+  for (size_t at = 0, end; at < text.size(); at = end + 1) {
+    end = std::min(text.find_first_of(">;", at), text.size());
+    std::string item = text.substr(at, end - at);
+    item.erase(0, item.find_first_not_of(" \n"));
+    item.erase(item.find_last_not_of(" \n") + 1);
+    const size_t comma = item.find(", ");
+    if (comma == std::string::npos) {
+      parent = item;
+      continue;
+    }
+    Line line{item.substr(0, comma), parent, HumanJoint::hips};
+    std::istringstream words(item.substr(comma + 2));
+    std::string word;
+    words >> word;
+    line.place = HumanJoint{find_human_joint(word).value()};
+    while (words >> word) {
+      if (word == "=") {
+        line.human = index(line.place);
+      } else if (word[0] == '=') {
+        line.human = find_human_joint(word.substr(1)).value();
+      } else {
+        line.along = std::stof(word);
+      }
+    }
+    lines.push_back(line);
+    parent = end < text.size() && text[end] == '>' ? line.name : "";
+  }
+  return lines;
+}
 
 struct MadeUp {
   Skeleton skeleton;
@@ -54,6 +94,21 @@ struct MadeUp {
 inline std::string with_side(std::string text, const std::string& side) {
   const size_t star = text.find('*');
   return star == std::string::npos ? text : text.replace(star, 1, side);
+}
+
+// What the joints are called that a person takes for human ones, on both sides; "" is none.
+using HumanNames = std::array<std::string, kHumanJoints>;
+inline HumanNames names_of(const std::vector<Line>& lines, const std::string& left,
+                           const std::string& right) {
+  HumanNames out;
+  for (const Line& line : lines) {
+    if (line.human < 0) continue;
+    out[line.human] = with_side(line.name, left);
+    if (line.name.find('*') != std::string::npos) {
+      out[kHumanMirror[line.human]] = with_side(line.name, right);
+    }
+  }
+  return out;
 }
 
 inline MadeUp make_up(const std::vector<Line>& lines, const std::string& left,

@@ -1,11 +1,6 @@
 #pragma once
-// Twelve rigs with the names, joints and rest poses of as many makers, and any motion of the
-// canonical body put on them.
+// Rigs with the names, joints and rest poses of eleven makers.
 
-#include <array>
-#include <cmath>
-#include <random>
-#include <string>
 #include <vector>
 
 #include "rig/canonical_body.h"
@@ -22,390 +17,127 @@ enum class Axes {
 };
 
 struct Maker {
-  const char* name;
-  std::vector<Line> lines;  // As in made_up.h; they keep the order of the maker.
-  const char *left, *right;
+  const char *name, *left, *right;
   RestPose rest;
   Axes axes;
   double units_per_metre;
   bool z_up;
   float legs, arms, torso;  // Lengths against the canonical body's.
-  // The names that a person gives the human joints, in the order hips, spine, chest, neck, head,
-  // shoulder, upper arm, lower arm, hand, upper leg, lower leg, foot, toes; "" is none.
-  std::array<const char*, 13> joints;
+  std::vector<Line> lines;  // They keep the order of the maker.
 };
 
 inline const std::vector<Maker>& makers() {
-  using enum HumanJoint;
   static const std::vector<Maker> all = {
-      {"Mixamo",
-       {{"mixamorig5:Hips", "", hips},
-        {"mixamorig5:Spine", "mixamorig5:Hips", spine, 0.5f},
-        {"mixamorig5:Spine1", "mixamorig5:Spine", spine},
-        {"mixamorig5:Spine2", "mixamorig5:Spine1", chest},
-        {"mixamorig5:Neck", "mixamorig5:Spine2", neck},
-        {"mixamorig5:Head", "mixamorig5:Neck", head},
-        {"mixamorig5:HeadTop_End", "mixamorig5:Head", head, 3},
-        {"mixamorig5:*Shoulder", "mixamorig5:Spine2", left_shoulder},
-        {"mixamorig5:*Arm", "mixamorig5:*Shoulder", left_upper_arm},
-        {"mixamorig5:*ForeArm", "mixamorig5:*Arm", left_lower_arm},
-        {"mixamorig5:*Hand", "mixamorig5:*ForeArm", left_hand},
-        {"mixamorig5:*HandThumb1", "mixamorig5:*Hand", left_hand, 1.1f},
-        {"mixamorig5:*HandIndex1", "mixamorig5:*Hand", left_hand, 1.4f},
-        {"mixamorig5:*HandIndex2", "mixamorig5:*HandIndex1", left_hand, 1.5f},
-        {"mixamorig5:*UpLeg", "mixamorig5:Hips", left_upper_leg},
-        {"mixamorig5:*Leg", "mixamorig5:*UpLeg", left_lower_leg},
-        {"mixamorig5:*Foot", "mixamorig5:*Leg", left_foot},
-        {"mixamorig5:*ToeBase", "mixamorig5:*Foot", left_toes},
-        {"mixamorig5:*Toe_End", "mixamorig5:*ToeBase", left_toes, 1.5f}},
-       "Left",
-       "Right",
-       RestPose::t,
-       Axes::world,
-       100,
-       false,
-       1.05f,
-       1,
-       1,
-       {"mixamorig5:Hips", "mixamorig5:Spine1", "mixamorig5:Spine2", "mixamorig5:Neck",
-        "mixamorig5:Head", "mixamorig5:*Shoulder", "mixamorig5:*Arm", "mixamorig5:*ForeArm",
-        "mixamorig5:*Hand", "mixamorig5:*UpLeg", "mixamorig5:*Leg", "mixamorig5:*Foot",
-        "mixamorig5:*ToeBase"}},
-      {"Unreal 4",
-       {{"root", "", hips, 0},
-        {"pelvis", "root", hips},
-        {"spine_01", "pelvis", spine, 0.4f},
-        {"spine_02", "spine_01", spine},
-        {"spine_03", "spine_02", chest},
-        {"clavicle_*", "spine_03", left_shoulder},
-        {"upperarm_*", "clavicle_*", left_upper_arm},
-        {"lowerarm_*", "upperarm_*", left_lower_arm},
-        {"hand_*", "lowerarm_*", left_hand},
-        {"index_01_*", "hand_*", left_hand, 1.4f},
-        {"lowerarm_twist_01_*", "lowerarm_*", left_hand, 0.5f},
-        {"upperarm_twist_01_*", "upperarm_*", left_lower_arm, 0.5f},
-        {"neck_01", "spine_03", neck},
-        {"head", "neck_01", head},
-        {"thigh_*", "pelvis", left_upper_leg},
-        {"calf_*", "thigh_*", left_lower_leg},
-        {"calf_twist_01_*", "calf_*", left_foot, 0.5f},
-        {"foot_*", "calf_*", left_foot},
-        {"ball_*", "foot_*", left_toes},
-        {"thigh_twist_01_*", "thigh_*", left_lower_leg, 0.5f},
-        {"ik_foot_root", "root", hips, 0},
-        {"ik_foot_*", "ik_foot_root", left_foot},
-        {"ik_hand_root", "root", hips, 0},
-        {"ik_hand_gun", "ik_hand_root", right_hand},
-        {"ik_hand_*", "ik_hand_gun", left_hand}},
-       "l",
-       "r",
-       RestPose::a,
-       Axes::own,
-       100,
-       true,
-       1.1f,
-       1.05f,
-       1,
-       {"pelvis", "spine_02", "spine_03", "neck_01", "head", "clavicle_*", "upperarm_*",
-        "lowerarm_*", "hand_*", "thigh_*", "calf_*", "foot_*", "ball_*"}},
-      {"Unreal 5",
-       {{"root", "", hips, 0},
-        {"pelvis", "root", hips},
-        {"spine_01", "pelvis", spine, 0.3f},
-        {"spine_02", "spine_01", spine, 0.7f},
-        {"spine_03", "spine_02", spine},
-        {"spine_04", "spine_03", chest, 0.6f},
-        {"spine_05", "spine_04", chest},
-        {"neck_01", "spine_05", neck},
-        {"neck_02", "neck_01", head, 0.5f},
-        {"head", "neck_02", head},
-        {"clavicle_*", "spine_05", left_shoulder},
-        {"clavicle_out_*", "clavicle_*", left_upper_arm, 0.8f},
-        {"upperarm_*", "clavicle_*", left_upper_arm},
-        {"upperarm_correctiveRoot_*", "upperarm_*", left_upper_arm},
-        {"upperarm_bicep_*", "upperarm_*", left_lower_arm, 0.4f},
-        {"lowerarm_*", "upperarm_*", left_lower_arm},
-        {"hand_*", "lowerarm_*", left_hand},
-        {"wrist_inner_*", "hand_*", left_hand, 1.02f},
-        {"wrist_outer_*", "hand_*", left_hand, 1.02f},
-        {"index_metacarpal_*", "hand_*", left_hand, 1.2f},
-        {"index_01_*", "index_metacarpal_*", left_hand, 1.4f},
-        {"thigh_*", "pelvis", left_upper_leg},
-        {"calf_*", "thigh_*", left_lower_leg},
-        {"calf_knee_*", "calf_*", left_lower_leg},
-        {"foot_*", "calf_*", left_foot},
-        {"ankle_bck_*", "foot_*", left_foot},
-        {"ankle_fwd_*", "foot_*", left_foot},
-        {"ball_*", "foot_*", left_toes},
-        {"interaction", "root", hips, 0},
-        {"center_of_mass", "root", hips, 0}},
-       "l",
-       "r",
-       RestPose::a,
-       Axes::own,
-       100,
-       true,
-       1.15f,
-       1.1f,
-       1.05f,
-       {"pelvis", "spine_03", "spine_05", "neck_02", "head", "clavicle_*", "upperarm_*",
-        "lowerarm_*", "hand_*", "thigh_*", "calf_*", "foot_*", "ball_*"}},
-      {"VRM",
-       {{"Root", "", hips, 0},
-        {"J_Bip_C_Hips", "Root", hips},
-        {"J_Bip_C_Spine", "J_Bip_C_Hips", spine},
-        {"J_Bip_C_Chest", "J_Bip_C_Spine", chest, 0.6f},
-        {"J_Bip_C_UpperChest", "J_Bip_C_Chest", chest},
-        {"J_Sec_*_Bust1", "J_Bip_C_UpperChest", left_shoulder},
-        {"J_Bip_C_Neck", "J_Bip_C_UpperChest", neck},
-        {"J_Bip_C_Head", "J_Bip_C_Neck", head},
-        {"J_Adj_*_FaceEye", "J_Bip_C_Head", head, 1.2f},
-        {"J_Sec_Hair1_01", "J_Bip_C_Head", head, 4},
-        {"J_Sec_Hair2_01", "J_Sec_Hair1_01", head, 6},
-        {"J_Bip_*_Shoulder", "J_Bip_C_UpperChest", left_shoulder},
-        {"J_Bip_*_UpperArm", "J_Bip_*_Shoulder", left_upper_arm},
-        {"J_Bip_*_LowerArm", "J_Bip_*_UpperArm", left_lower_arm},
-        {"J_Bip_*_Hand", "J_Bip_*_LowerArm", left_hand},
-        {"J_Bip_*_Index1", "J_Bip_*_Hand", left_hand, 1.4f},
-        {"J_Bip_*_UpperLeg", "J_Bip_C_Hips", left_upper_leg},
-        {"J_Sec_*_Skirt1", "J_Bip_*_UpperLeg", left_lower_leg, 0.3f},
-        {"J_Bip_*_LowerLeg", "J_Bip_*_UpperLeg", left_lower_leg},
-        {"J_Bip_*_Foot", "J_Bip_*_LowerLeg", left_foot},
-        {"J_Bip_*_ToeBase", "J_Bip_*_Foot", left_toes}},
-       "L",
-       "R",
-       RestPose::t,
-       Axes::world,
-       1,
-       false,
-       0.8f,
-       0.85f,
-       0.8f,
-       {"J_Bip_C_Hips", "J_Bip_C_Spine", "J_Bip_C_UpperChest", "J_Bip_C_Neck", "J_Bip_C_Head",
-        "J_Bip_*_Shoulder", "J_Bip_*_UpperArm", "J_Bip_*_LowerArm", "J_Bip_*_Hand",
-        "J_Bip_*_UpperLeg", "J_Bip_*_LowerLeg", "J_Bip_*_Foot", "J_Bip_*_ToeBase"}},
-      {"SMPL",
-       {{"Pelvis", "", hips},
-        {"*_Hip", "Pelvis", left_upper_leg},
-        {"*_Knee", "*_Hip", left_lower_leg},
-        {"*_Ankle", "*_Knee", left_foot},
-        {"*_Foot", "*_Ankle", left_toes},
-        {"Spine1", "Pelvis", spine, 0.6f},
-        {"Spine2", "Spine1", spine},
-        {"Spine3", "Spine2", chest},
-        {"Neck", "Spine3", neck},
-        {"Head", "Neck", head},
-        {"*_Collar", "Spine3", left_shoulder},
-        {"*_Shoulder", "*_Collar", left_upper_arm},
-        {"*_Elbow", "*_Shoulder", left_lower_arm},
-        {"*_Wrist", "*_Elbow", left_hand},
-        {"*_Hand", "*_Wrist", left_hand, 1.3f}},
-       "L",
-       "R",
-       RestPose::t,
-       Axes::world,
-       1,
-       false,
-       1.02f,
-       1,
-       1.02f,
-       {"Pelvis", "Spine2", "Spine3", "Neck", "Head", "*_Collar", "*_Shoulder", "*_Elbow",
-        "*_Wrist", "*_Hip", "*_Knee", "*_Ankle", "*_Foot"}},
-      {"Rokoko",
-       {{"Root", "", hips, 0},
-        {"Hips", "Root", hips},
-        {"Spine", "Hips", spine, 0.3f},
-        {"Spine2", "Spine", spine},
-        {"Spine3", "Spine2", chest, 0.5f},
-        {"Spine4", "Spine3", chest},
-        {"Neck", "Spine4", neck},
-        {"Head", "Neck", head},
-        {"*Shoulder", "Spine4", left_shoulder},
-        {"*Arm", "*Shoulder", left_upper_arm},
-        {"*ForeArm", "*Arm", left_lower_arm},
-        {"*Hand", "*ForeArm", left_hand},
-        {"*Digit2Metacarpophalangeal", "*Hand", left_hand, 1.4f},
-        {"*Thigh", "Hips", left_upper_leg},
-        {"*Shin", "*Thigh", left_lower_leg},
-        {"*Foot", "*Shin", left_foot},
-        {"*Toe", "*Foot", left_toes},
-        {"*ToeTip", "*Toe", left_toes, 1.4f}},
-       "Left",
-       "Right",
-       RestPose::t,
-       Axes::world,
-       100,
-       false,
-       1.1f,
-       1.1f,
-       1.1f,
-       {"Hips", "Spine2", "Spine4", "Neck", "Head", "*Shoulder", "*Arm", "*ForeArm", "*Hand",
-        "*Thigh", "*Shin", "*Foot", "*Toe"}},
-      {"Xsens",
-       {{"Pelvis", "", hips},
-        {"L5", "Pelvis", spine, 0.3f},
-        {"L3", "L5", spine, 0.7f},
-        {"T12", "L3", spine},
-        {"T8", "T12", chest},
-        {"Neck", "T8", neck},
-        {"Head", "Neck", head},
-        {"*Shoulder", "T8", left_shoulder},
-        {"*UpperArm", "*Shoulder", left_upper_arm},
-        {"*ForeArm", "*UpperArm", left_lower_arm},
-        {"*Hand", "*ForeArm", left_hand},
-        {"*UpperLeg", "Pelvis", left_upper_leg},
-        {"*LowerLeg", "*UpperLeg", left_lower_leg},
-        {"*Foot", "*LowerLeg", left_foot},
-        {"*Toe", "*Foot", left_toes}},
-       "Left",
-       "Right",
-       RestPose::t,
-       Axes::world,
-       100,
-       true,
-       1.08f,
-       1.02f,
-       1,
-       {"Pelvis", "T12", "T8", "Neck", "Head", "*Shoulder", "*UpperArm", "*ForeArm", "*Hand",
-        "*UpperLeg", "*LowerLeg", "*Foot", "*Toe"}},
-      {"Rigify",
-       {{"root", "", hips, 0},
-        {"DEF-spine", "root", hips},
-        {"DEF-spine.001", "DEF-spine", spine, 0.5f},
-        {"DEF-spine.002", "DEF-spine.001", spine},
-        {"DEF-spine.003", "DEF-spine.002", chest},
-        {"DEF-spine.004", "DEF-spine.003", neck, 0.7f},
-        {"DEF-spine.005", "DEF-spine.004", neck},
-        {"DEF-spine.006", "DEF-spine.005", head},
-        {"DEF-pelvis.*", "DEF-spine", left_upper_leg, 0.4f},
-        {"DEF-breast.*", "DEF-spine.003", left_shoulder},
-        {"DEF-shoulder.*", "DEF-spine.003", left_shoulder},
-        {"DEF-upper_arm.*", "DEF-shoulder.*", left_upper_arm},
-        {"DEF-upper_arm.*.001", "DEF-upper_arm.*", left_lower_arm, 0.5f},
-        {"DEF-forearm.*", "DEF-upper_arm.*.001", left_lower_arm},
-        {"DEF-forearm.*.001", "DEF-forearm.*", left_hand, 0.5f},
-        {"DEF-hand.*", "DEF-forearm.*.001", left_hand},
-        {"DEF-f_index.01.*", "DEF-hand.*", left_hand, 1.4f},
-        {"DEF-thumb.01.*", "DEF-hand.*", left_hand, 1.1f},
-        {"DEF-thigh.*", "DEF-spine", left_upper_leg},
-        {"DEF-thigh.*.001", "DEF-thigh.*", left_lower_leg, 0.5f},
-        {"DEF-shin.*", "DEF-thigh.*.001", left_lower_leg},
-        {"DEF-shin.*.001", "DEF-shin.*", left_foot, 0.5f},
-        {"DEF-foot.*", "DEF-shin.*.001", left_foot},
-        {"DEF-toe.*", "DEF-foot.*", left_toes}},
-       "L",
-       "R",
-       RestPose::a,
-       Axes::own,
-       1,
-       true,
-       1.05f,
-       1.05f,
-       1.1f,
-       {"DEF-spine", "DEF-spine.002", "DEF-spine.003", "DEF-spine.005", "DEF-spine.006",
-        "DEF-shoulder.*", "DEF-upper_arm.*", "DEF-forearm.*", "DEF-hand.*", "DEF-thigh.*",
-        "DEF-shin.*", "DEF-foot.*", "DEF-toe.*"}},
-      {"Perception Neuron",
-       {{"Hips", "", hips},
-        {"*UpLeg", "Hips", left_upper_leg},
-        {"*Leg", "*UpLeg", left_lower_leg},
-        {"*Foot", "*Leg", left_foot},
-        {"Spine", "Hips", spine, 0.3f},
-        {"Spine1", "Spine", spine},
-        {"Spine2", "Spine1", chest, 0.6f},
-        {"Spine3", "Spine2", chest},
-        {"Neck", "Spine3", neck},
-        {"Head", "Neck", head},
-        {"*Shoulder", "Spine3", left_shoulder},
-        {"*Arm", "*Shoulder", left_upper_arm},
-        {"*ForeArm", "*Arm", left_lower_arm},
-        {"*Hand", "*ForeArm", left_hand},
-        {"*HandThumb1", "*Hand", left_hand, 1.1f},
-        {"*InHandIndex", "*Hand", left_hand, 1.1f},
-        {"*HandIndex1", "*InHandIndex", left_hand, 1.4f},
-        {"*InHandMiddle", "*Hand", left_hand, 1.1f}},
-       "Left",
-       "Right",
-       RestPose::t,
-       Axes::world,
-       100,
-       false,
-       1.05f,
-       1,
-       1.05f,
-       {"Hips", "Spine1", "Spine3", "Neck", "Head", "*Shoulder", "*Arm", "*ForeArm", "*Hand",
-        "*UpLeg", "*Leg", "*Foot", ""}},
-      {"3ds Max Biped",
-       {{"Bip01", "", hips},
-        {"Bip01 Footsteps", "Bip01", hips, 0},
-        {"Bip01 Pelvis", "Bip01", hips},
-        {"Bip01 Spine", "Bip01 Pelvis", spine, 0.3f},
-        {"Bip01 Spine1", "Bip01 Spine", spine},
-        {"Bip01 Spine2", "Bip01 Spine1", chest},
-        {"Bip01 Neck", "Bip01 Spine2", neck},
-        {"Bip01 Head", "Bip01 Neck", head},
-        {"Bip01 HeadNub", "Bip01 Head", head, 3},
-        {"Bip01 * Clavicle", "Bip01 Neck", left_shoulder},
-        {"Bip01 * UpperArm", "Bip01 * Clavicle", left_upper_arm},
-        {"Bip01 * Forearm", "Bip01 * UpperArm", left_lower_arm},
-        {"Bip01 * ForeTwist", "Bip01 * Forearm", left_hand, 0.5f},
-        {"Bip01 * Hand", "Bip01 * Forearm", left_hand},
-        {"Bip01 * Finger0", "Bip01 * Hand", left_hand, 1.1f},
-        {"Bip01 * Finger0Nub", "Bip01 * Finger0", left_hand, 1.3f},
-        {"Bip01 * Thigh", "Bip01 Spine", left_upper_leg},
-        {"Bip01 * Calf", "Bip01 * Thigh", left_lower_leg},
-        {"Bip01 * Foot", "Bip01 * Calf", left_foot},
-        {"Bip01 * Toe0", "Bip01 * Foot", left_toes},
-        {"Bip01 * Toe0Nub", "Bip01 * Toe0", left_toes, 1.2f}},
-       "L",
-       "R",
-       RestPose::arms_down,
-       Axes::own,
-       39.37,
-       true,
-       1,
-       1,
-       1,
-       {"Bip01 Pelvis", "Bip01 Spine1", "Bip01 Spine2", "Bip01 Neck", "Bip01 Head",
-        "Bip01 * Clavicle", "Bip01 * UpperArm", "Bip01 * Forearm", "Bip01 * Hand", "Bip01 * Thigh",
-        "Bip01 * Calf", "Bip01 * Foot", "Bip01 * Toe0"}},
-      {"DAZ",
-       {{"hip", "", hips},
-        {"pelvis", "hip", hips},
-        {"*ThighBend", "pelvis", left_upper_leg},
-        {"*ThighTwist", "*ThighBend", left_lower_leg, 0.5f},
-        {"*Shin", "*ThighTwist", left_lower_leg},
-        {"*Foot", "*Shin", left_foot},
-        {"*Metatarsals", "*Foot", left_toes, 0.4f},
-        {"*Toe", "*Metatarsals", left_toes},
-        {"*SmallToe1", "*Toe", left_toes, 1.2f},
-        {"abdomenLower", "hip", spine, 0.4f},
-        {"abdomenUpper", "abdomenLower", spine},
-        {"chestLower", "abdomenUpper", chest, 0.5f},
-        {"chestUpper", "chestLower", chest},
-        {"*Collar", "chestUpper", left_shoulder},
-        {"*ShldrBend", "*Collar", left_upper_arm},
-        {"*ShldrTwist", "*ShldrBend", left_lower_arm, 0.5f},
-        {"*ForearmBend", "*ShldrTwist", left_lower_arm},
-        {"*ForearmTwist", "*ForearmBend", left_hand, 0.5f},
-        {"*Hand", "*ForearmTwist", left_hand},
-        {"*Carpal1", "*Hand", left_hand, 1.1f},
-        {"*Index1", "*Carpal1", left_hand, 1.4f},
-        {"neckLower", "chestUpper", neck},
-        {"neckUpper", "neckLower", head, 0.6f},
-        {"head", "neckUpper", head},
-        {"lowerJaw", "head", head}},
-       "l",
-       "r",
-       RestPose::a,
-       Axes::world,
-       100,
-       false,
-       1.1f,
-       1.08f,
-       1.05f,
-       {"hip", "abdomenUpper", "chestUpper", "neckUpper", "head", "*Collar", "*ShldrBend",
-        "*ForearmBend", "*Hand", "*ThighBend", "*Shin", "*Foot", "*Toe"}}};
+      {"Mixamo", "Left", "Right", RestPose::t, Axes::world, 100, false, 1.05f, 1, 1, tree(R"(
+mixamorig5:Hips, hips = > mixamorig5:Spine, spine 0.5 > mixamorig5:Spine1, spine =
+  > mixamorig5:Spine2, chest = > mixamorig5:Neck, neck = > mixamorig5:Head, head =
+  > mixamorig5:HeadTop_End, head 3;
+mixamorig5:Spine2 > mixamorig5:*Shoulder, leftShoulder = > mixamorig5:*Arm, leftUpperArm =
+  > mixamorig5:*ForeArm, leftLowerArm = > mixamorig5:*Hand, leftHand =
+  > mixamorig5:*HandThumb1, leftHand 1.1;
+mixamorig5:*Hand > mixamorig5:*HandIndex1, leftHand 1.4 > mixamorig5:*HandIndex2, leftHand 1.5;
+mixamorig5:Hips > mixamorig5:*UpLeg, leftUpperLeg = > mixamorig5:*Leg, leftLowerLeg =
+  > mixamorig5:*Foot, leftFoot = > mixamorig5:*ToeBase, leftToes =
+  > mixamorig5:*Toe_End, leftToes 1.5)")},
+      {"Unreal 4", "l", "r", RestPose::a, Axes::own, 100, true, 1.1f, 1.05f, 1, tree(R"(
+root, hips 0 > pelvis, hips = > spine_01, spine 0.4 > spine_02, spine = > spine_03, chest =
+  > clavicle_*, leftShoulder = > upperarm_*, leftUpperArm = > lowerarm_*, leftLowerArm =
+  > hand_*, leftHand = > index_01_*, leftHand 1.4;
+lowerarm_* > lowerarm_twist_01_*, leftHand 0.5;
+upperarm_* > upperarm_twist_01_*, leftLowerArm 0.5;
+spine_03 > neck_01, neck = > head, head =;
+pelvis > thigh_*, leftUpperLeg = > calf_*, leftLowerLeg = > calf_twist_01_*, leftFoot 0.5;
+calf_* > foot_*, leftFoot = > ball_*, leftToes =;
+thigh_* > thigh_twist_01_*, leftLowerLeg 0.5;
+root > ik_foot_root, hips 0 > ik_foot_*, leftFoot;
+root > ik_hand_root, hips 0 > ik_hand_gun, rightHand > ik_hand_*, leftHand)")},
+      {"Unreal 5", "l", "r", RestPose::a, Axes::own, 100, true, 1.15f, 1.1f, 1.05f, tree(R"(
+root, hips 0 > pelvis, hips = > spine_01, spine 0.3 > spine_02, spine 0.7 > spine_03, spine =
+  > spine_04, chest 0.6 > spine_05, chest = > neck_01, neck > neck_02, head 0.5 =neck
+  > head, head =;
+spine_05 > clavicle_*, leftShoulder = > clavicle_out_*, leftUpperArm 0.8;
+clavicle_* > upperarm_*, leftUpperArm = > upperarm_correctiveRoot_*, leftUpperArm;
+upperarm_* > upperarm_bicep_*, leftLowerArm 0.4;
+upperarm_* > lowerarm_*, leftLowerArm = > hand_*, leftHand = > wrist_inner_*, leftHand 1.02;
+hand_* > wrist_outer_*, leftHand 1.02;
+hand_* > index_metacarpal_*, leftHand 1.2 > index_01_*, leftHand 1.4;
+pelvis > thigh_*, leftUpperLeg = > calf_*, leftLowerLeg = > calf_knee_*, leftLowerLeg;
+calf_* > foot_*, leftFoot = > ankle_bck_*, leftFoot;
+foot_* > ankle_fwd_*, leftFoot;
+foot_* > ball_*, leftToes =;
+root > interaction, hips 0;
+root > center_of_mass, hips 0)")},
+      {"VRM", "L", "R", RestPose::t, Axes::world, 1, false, 0.8f, 0.85f, 0.8f, tree(R"(
+Root, hips 0 > J_Bip_C_Hips, hips = > J_Bip_C_Spine, spine = > J_Bip_C_Chest, chest 0.6
+  > J_Bip_C_UpperChest, chest = > J_Sec_*_Bust1, leftShoulder;
+J_Bip_C_UpperChest > J_Bip_C_Neck, neck = > J_Bip_C_Head, head = > J_Adj_*_FaceEye, head 1.2;
+J_Bip_C_Head > J_Sec_Hair1_01, head 4 > J_Sec_Hair2_01, head 6;
+J_Bip_C_UpperChest > J_Bip_*_Shoulder, leftShoulder = > J_Bip_*_UpperArm, leftUpperArm =
+  > J_Bip_*_LowerArm, leftLowerArm = > J_Bip_*_Hand, leftHand = > J_Bip_*_Index1, leftHand 1.4;
+J_Bip_C_Hips > J_Bip_*_UpperLeg, leftUpperLeg = > J_Sec_*_Skirt1, leftLowerLeg 0.3;
+J_Bip_*_UpperLeg > J_Bip_*_LowerLeg, leftLowerLeg = > J_Bip_*_Foot, leftFoot =
+  > J_Bip_*_ToeBase, leftToes =)")},
+      {"SMPL", "L", "R", RestPose::t, Axes::world, 1, false, 1.02f, 1, 1.02f, tree(R"(
+Pelvis, hips = > *_Hip, leftUpperLeg = > *_Knee, leftLowerLeg = > *_Ankle, leftFoot =
+  > *_Foot, leftToes =;
+Pelvis > Spine1, spine 0.6 > Spine2, spine = > Spine3, chest = > Neck, neck = > Head, head =;
+Spine3 > *_Collar, leftShoulder = > *_Shoulder, leftUpperArm = > *_Elbow, leftLowerArm =
+  > *_Wrist, leftHand = > *_Hand, leftHand 1.3)")},
+      {"Rokoko", "Left", "Right", RestPose::t, Axes::world, 100, false, 1.1f, 1.1f, 1.1f, tree(R"(
+Root, hips 0 > Hips, hips = > Spine, spine 0.3 > Spine2, spine = > Spine3, chest 0.5
+  > Spine4, chest = > Neck, neck = > Head, head =;
+Spine4 > *Shoulder, leftShoulder = > *Arm, leftUpperArm = > *ForeArm, leftLowerArm =
+  > *Hand, leftHand = > *Digit2Metacarpophalangeal, leftHand 1.4;
+Hips > *Thigh, leftUpperLeg = > *Shin, leftLowerLeg = > *Foot, leftFoot = > *Toe, leftToes =
+  > *ToeTip, leftToes 1.4)")},
+      {"Xsens", "Left", "Right", RestPose::t, Axes::world, 100, true, 1.08f, 1.02f, 1, tree(R"(
+Pelvis, hips = > L5, spine 0.3 > L3, spine 0.7 > T12, spine = > T8, chest = > Neck, neck =
+  > Head, head =;
+T8 > *Shoulder, leftShoulder = > *UpperArm, leftUpperArm = > *ForeArm, leftLowerArm =
+  > *Hand, leftHand =;
+Pelvis > *UpperLeg, leftUpperLeg = > *LowerLeg, leftLowerLeg = > *Foot, leftFoot =
+  > *Toe, leftToes =)")},
+      {"Rigify", "L", "R", RestPose::a, Axes::own, 1, true, 1.05f, 1.05f, 1.1f, tree(R"(
+root, hips 0 > DEF-spine, hips = > DEF-spine.001, spine 0.5 > DEF-spine.002, spine =
+  > DEF-spine.003, chest = > DEF-spine.004, neck 0.7 > DEF-spine.005, neck =
+  > DEF-spine.006, head =;
+DEF-spine > DEF-pelvis.*, leftUpperLeg 0.4;
+DEF-spine.003 > DEF-breast.*, leftShoulder;
+DEF-spine.003 > DEF-shoulder.*, leftShoulder = > DEF-upper_arm.*, leftUpperArm =
+  > DEF-upper_arm.*.001, leftLowerArm 0.5 > DEF-forearm.*, leftLowerArm =
+  > DEF-forearm.*.001, leftHand 0.5 > DEF-hand.*, leftHand = > DEF-f_index.01.*, leftHand 1.4;
+DEF-hand.* > DEF-thumb.01.*, leftHand 1.1;
+DEF-spine > DEF-thigh.*, leftUpperLeg = > DEF-thigh.*.001, leftLowerLeg 0.5
+  > DEF-shin.*, leftLowerLeg = > DEF-shin.*.001, leftFoot 0.5 > DEF-foot.*, leftFoot =
+  > DEF-toe.*, leftToes =)")},
+      {"Perception Neuron", "Left", "Right", RestPose::t, Axes::world, 100, false, 1.05f, 1, 1.05f,
+       tree(R"(
+Hips, hips = > *UpLeg, leftUpperLeg = > *Leg, leftLowerLeg = > *Foot, leftFoot =;
+Hips > Spine, spine 0.3 > Spine1, spine = > Spine2, chest 0.6 > Spine3, chest = > Neck, neck =
+  > Head, head =;
+Spine3 > *Shoulder, leftShoulder = > *Arm, leftUpperArm = > *ForeArm, leftLowerArm =
+  > *Hand, leftHand = > *HandThumb1, leftHand 1.1;
+*Hand > *InHandIndex, leftHand 1.1 > *HandIndex1, leftHand 1.4;
+*Hand > *InHandMiddle, leftHand 1.1)")},
+      {"3ds Max Biped", "L", "R", RestPose::arms_down, Axes::own, 39.37, true, 1, 1, 1, tree(R"(
+Bip01, hips > Bip01 Footsteps, hips 0;
+Bip01 > Bip01 Pelvis, hips = > Bip01 Spine, spine 0.3 > Bip01 Spine1, spine =
+  > Bip01 Spine2, chest = > Bip01 Neck, neck = > Bip01 Head, head = > Bip01 HeadNub, head 3;
+Bip01 Neck > Bip01 * Clavicle, leftShoulder = > Bip01 * UpperArm, leftUpperArm =
+  > Bip01 * Forearm, leftLowerArm = > Bip01 * ForeTwist, leftHand 0.5;
+Bip01 * Forearm > Bip01 * Hand, leftHand = > Bip01 * Finger0, leftHand 1.1
+  > Bip01 * Finger0Nub, leftHand 1.3;
+Bip01 Spine > Bip01 * Thigh, leftUpperLeg = > Bip01 * Calf, leftLowerLeg =
+  > Bip01 * Foot, leftFoot = > Bip01 * Toe0, leftToes = > Bip01 * Toe0Nub, leftToes 1.2)")},
+      {"DAZ", "l", "r", RestPose::a, Axes::world, 100, false, 1.1f, 1.08f, 1.05f, tree(R"(
+hip, hips = > pelvis, hips > *ThighBend, leftUpperLeg = > *ThighTwist, leftLowerLeg 0.5
+  > *Shin, leftLowerLeg = > *Foot, leftFoot = > *Metatarsals, leftToes 0.4 > *Toe, leftToes =
+  > *SmallToe1, leftToes 1.2;
+hip > abdomenLower, spine 0.4 > abdomenUpper, spine = > chestLower, chest 0.5 > chestUpper, chest =
+  > *Collar, leftShoulder = > *ShldrBend, leftUpperArm = > *ShldrTwist, leftLowerArm 0.5
+  > *ForearmBend, leftLowerArm = > *ForearmTwist, leftHand 0.5 > *Hand, leftHand =
+  > *Carpal1, leftHand 1.1 > *Index1, leftHand 1.4;
+chestUpper > neckLower, neck > neckUpper, head 0.6 =neck > head, head = > lowerJaw, head)")}};
   return all;
 }
 

@@ -141,24 +141,13 @@ inline Character put_on(const Maker& maker, const Clip& motion, float turn = 0,
 
 // Its joints by the names that a person gives them; -1 where it has none.
 inline std::array<int, kHumanJoints> expected_joints(const Maker& maker, const Clip& clip) {
-  using enum HumanJoint;
+  const HumanNames names = names_of(maker.lines, maker.left, maker.right);
   std::array<int, kHumanJoints> out;
   out.fill(-1);
-  const auto find = [&](const std::string& name) {
+  for (size_t h = 0; h < names.size(); ++h) {
     for (size_t j = 0; j < clip.joints(); ++j) {
-      if (clip.skeleton.joints[j].name == name) return static_cast<int>(j);
+      if (clip.skeleton.joints[j].name == names[h]) out[h] = static_cast<int>(j);
     }
-    return -1;
-  };
-  constexpr HumanJoint kMiddle[] = {hips, spine, chest, neck, head};
-  for (size_t i = 0; i < 5; ++i) out[index(kMiddle[i])] = find(maker.joints[i]);
-  constexpr HumanJoint kLeft[] = {left_shoulder,  left_upper_arm, left_lower_arm, left_hand,
-                                  left_upper_leg, left_lower_leg, left_foot,      left_toes};
-  for (size_t i = 0; i < 8; ++i) {
-    const std::string name = maker.joints[5 + i];
-    if (name.empty()) continue;
-    out[index(kLeft[i])] = find(with_side(name, maker.left));
-    out[kHumanMirror[index(kLeft[i])]] = find(with_side(name, maker.right));
   }
   return out;
 }

@@ -21,26 +21,13 @@ Rig rig_of(const Clip& clip) {
 
 // Joints above the hips, of no length, twist joints, fingers, a prop, no right clavicle, no toes.
 MadeUp awkward() {
-  return make_up({{"World", "", hips, 0},
-                  {"Reference", "World", hips, 0.5f},
-                  {"Pelvis", "Reference", hips, 0.9f},
-                  {"*HipJoint", "Pelvis", hips, 0.9f},
-                  {"*Thigh", "*HipJoint", left_upper_leg},
-                  {"*Shin", "*Thigh", left_lower_leg},
-                  {"*ShinTwist", "*Shin", left_foot, 0.5f},
-                  {"*Foot", "*ShinTwist", left_foot},
-                  {"Waist", "Pelvis", spine, 0.3f},
-                  {"Belly", "Waist", spine},
-                  {"Ribs", "Belly", chest},
-                  {"Head", "Ribs", head},
-                  {"Hat", "Head", head, 2},
-                  {"LeftCollar", "Ribs", left_shoulder},
-                  {"*Arm", "Ribs", left_upper_arm},
-                  {"*ArmTwist", "*Arm", left_lower_arm, 0.5f},
-                  {"*Elbow", "*ArmTwist", left_lower_arm},
-                  {"*Hand", "*Elbow", left_hand},
-                  {"*Finger1", "*Hand", left_hand, 1.2f},
-                  {"*Finger2", "*Finger1", left_hand, 1.3f}},
+  return make_up(tree(R"(
+World, hips 0 > Reference, hips 0.5 > Pelvis, hips 0.9 > *HipJoint, hips 0.9 > *Thigh, leftUpperLeg
+  > *Shin, leftLowerLeg > *ShinTwist, leftFoot 0.5 > *Foot, leftFoot;
+Pelvis > Waist, spine 0.3 > Belly, spine > Ribs, chest > Head, head > Hat, head 2;
+Ribs > LeftCollar, leftShoulder;
+Ribs > *Arm, leftUpperArm > *ArmTwist, leftLowerArm 0.5 > *Elbow, leftLowerArm > *Hand, leftHand
+  > *Finger1, leftHand 1.2 > *Finger2, leftHand 1.3)"),
                  "Left", "Right");
 }
 
