@@ -128,7 +128,6 @@ TEST_F(ClipApi, a_clip_gets_the_tempo_of_its_style_unless_timing_is_off) {
   EXPECT_EQ(std::memcmp(panache_styled_clip_translations(in_time) + 239 * 3 * STICK_JOINTS,
                         stepped[239].translations, sizeof stepped[239].translations),
             0);
-  panache_character_destroy(live);
   panache_styled_clip_destroy(in_time);
 }
 
@@ -213,8 +212,6 @@ TEST_F(ClipApi, a_shape_of_nothing_is_the_input_and_a_region_is_its_own) {
   panache_character_reset(whole);
   StickApi::walk(shaped, 300), StickApi::walk(whole, 300);
   EXPECT_TRUE(same(StickApi::walk(shaped, 10), StickApi::walk(whole, 10)));
-  panache_character_destroy(shaped);
-  panache_character_destroy(whole);
 }
 
 TEST_F(ClipApi, what_is_wrong_with_tracks_and_clips_is_said) {

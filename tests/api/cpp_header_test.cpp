@@ -53,7 +53,6 @@ TEST_F(CppHeader, a_character_steps_and_returns_to_a_state_with_the_bits_of_the_
     EXPECT_EQ(moved.report().gate, panache::test::report_of(expected).gate);
     moved.restore(state);
   }
-  panache_character_destroy(expected);
 }
 
 TEST_F(CppHeader, characters_step_together) {

@@ -83,12 +83,15 @@ class StickApi : public testing::Test {
         << panache_last_error();
   }
   void TearDown() override {
+    for (panache_character* one : characters_) panache_character_destroy(one);
     panache_skeleton_destroy(skeleton_);
     panache_model_destroy(model_);
   }
-  panache_character* character(const char* style = nullptr, float strength = 1) const {
+  // Lives as long as the test.
+  panache_character* character(const char* style = nullptr, float strength = 1) {
     panache_character* out = nullptr;
     EXPECT_EQ(panache_character_create(model_, skeleton_, nullptr, &out), PANACHE_OK);
+    characters_.push_back(out);
     if (style) {
       panache_character_set_strength(out, panache_model_find_style(model_, style), strength);
     }
@@ -109,6 +112,9 @@ class StickApi : public testing::Test {
 
   panache_model* model_ = nullptr;
   panache_skeleton* skeleton_ = nullptr;
+
+ private:
+  std::vector<panache_character*> characters_;
 };
 
 inline panache_report report_of(const panache_character* character) {

@@ -1,7 +1,15 @@
-// Styles taken out of a model, removed and added, as bytes.
+// Styles over the C interface: taken out and put in, with sides, persons and gestures.
+
+#include <cmath>
+#include <cstring>
+
+#include <panache/panache.hpp>
+
 #include "stick_api.h"
 
 namespace {
+
+// Styles taken out of a model, removed and added, as bytes.
 
 using StylesApi = panache::test::StickApi;
 using panache::test::model_bytes;
@@ -80,6 +88,240 @@ TEST_F(StylesApi, what_is_wrong_is_said_and_no_bytes_are_made) {
             PANACHE_BAD_ARGUMENT);
   EXPECT_EQ(panache_styles_extract("x", 1, "old", &none), PANACHE_BAD_MODEL);
   EXPECT_EQ(none, nullptr);
+}
+
+// Sides of styles over the C interface, on the shipped model with sides of our own.
+
+class Sides : public panache::test::StickApi {
+ protected:
+  // 'old' was captured on its right leg; the model says nothing of the others.
+  void SetUp() override {
+    panache::test::StickApi::SetUp();
+    old_ = panache_model_find_style(model_, "old");
+    std::string sides;
+    for (int i = 0; i < panache_model_style_count(model_); ++i) {
+      sides += i == old_ ? "right leg\\n" : "\\n";
+    }
+    bytes_ = panache::test::with_list(panache::test::model_bytes(), "style_sides", sides);
+    panache_model_destroy(model_);
+    ASSERT_EQ(panache_model_create(bytes_.data(), bytes_.size(), &model_), PANACHE_OK)
+        << panache_last_error();
+  }
+
+  int32_t old_ = -1;
+  std::string bytes_;
+};
+
+TEST_F(Sides, are_named_by_words) {
+  EXPECT_STREQ(panache_model_style_side(model_, old_), "right leg");
+  const int32_t other = old_ == 0 ? 1 : 0;
+  EXPECT_STREQ(panache_model_style_side(model_, other), "");
+  EXPECT_EQ(panache_model_style_side(model_, -1), nullptr);
+  const auto side = [&](const char* word) {
+    float found = 7;
+    EXPECT_EQ(panache_model_find_side(model_, old_, word, &found), PANACHE_OK);
+    return found;
+  };
+  EXPECT_EQ(side("right"), 1);
+  EXPECT_EQ(side("left"), -1);
+  EXPECT_EQ(side("captured"), 1);
+  EXPECT_EQ(side("mirrored"), -1);
+  float found = 7;
+  EXPECT_EQ(panache_model_find_side(model_, other, "left", &found), PANACHE_BAD_ARGUMENT);
+  EXPECT_NE(std::strstr(panache_last_error(), "captured, mirrored or a number"), nullptr);
+  EXPECT_EQ(panache_model_find_side(model_, -1, "left", &found), PANACHE_BAD_ARGUMENT);
+  EXPECT_EQ(found, 7);
+}
+
+TEST_F(Sides, of_a_character_change_what_it_does) {
+  panache_character* plain = character("old");
+  panache_character* mirrored = character("old");
+  panache_character* set_back = character("old");
+  panache_character* off = character();
+  panache_character_set_side(mirrored, old_, -1);
+  panache_character_set_side(set_back, old_, -1);
+  panache_character_set_side(set_back, old_, 1);
+  panache_character_set_side(off, old_, -1);
+  panache_character_set_side(plain, -1, -1);
+  panache_character_set_side(plain, old_, NAN);
+  const auto captured = walk(plain, 60);
+  EXPECT_FALSE(same(walk(mirrored, 60), captured));
+  EXPECT_TRUE(same(walk(set_back, 60), captured));
+  panache_character* nothing = character();
+  EXPECT_TRUE(same(walk(off, 60), walk(nothing, 60)));
+}
+
+TEST_F(Sides, of_a_clip_are_an_option_that_an_older_program_does_not_set) {
+  const panache::test::Walk walk(skeleton_, 90, false);
+  const panache_strength_key key = {0, 1};
+  const panache_strength_track track = {old_, 1, &key};
+  std::vector<float> sides(static_cast<size_t>(panache_model_style_count(model_)), 1.0f);
+  panache_stylize_options options = PANACHE_STYLIZE_OPTIONS;
+  options.style_timing = 0;
+  const auto rotations = [&] {
+    panache_styled_clip* styled = nullptr;
+    EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, &track, 1, &options, &styled), PANACHE_OK)
+        << panache_last_error();
+    const float* first = panache_styled_clip_rotations(styled);
+    std::vector<float> out(first, first + 4 * STICK_JOINTS * 90);
+    panache_styled_clip_destroy(styled);
+    return out;
+  };
+  const auto captured = rotations();
+  options.sides = sides.data();
+  EXPECT_EQ(rotations(), captured);
+  sides[static_cast<size_t>(old_)] = -1;
+  EXPECT_NE(rotations(), captured);
+  options.struct_size = offsetof(panache_stylize_options, sides);
+  EXPECT_EQ(rotations(), captured);
+  options.struct_size = sizeof options;
+  sides[static_cast<size_t>(old_)] = 2;
+  panache_styled_clip* none = nullptr;
+  EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, &track, 1, &options, &none),
+            PANACHE_BAD_ARGUMENT);
+  EXPECT_STREQ(panache_last_error(), "side of 2.000000 for style 'old'; expected -1 to 1");
+}
+
+TEST_F(Sides, are_in_the_cpp_header_too) {
+  const panache::Model model(bytes_.data(), bytes_.size());
+  const panache::Skeleton skeleton(stick_figure, STICK_JOINTS);
+  panache::Character one(model, skeleton);
+  panache_character* other = character("old");
+  EXPECT_STREQ(model.style_side(old_), "right leg");
+  one.set_strength(old_, 1);
+  one.set_side(old_, model.find_side(old_, "left"));
+  panache_character_set_side(other, old_, -1);
+  EXPECT_TRUE(same(walk(one.get(), 60), walk(other, 60)));
+  EXPECT_THROW(model.find_side(old_, "up"), panache::Error);
+}
+
+// Persons over the C interface, on the shipped model.
+
+class PersonApi : public panache::test::StickApi {};
+
+TEST_F(PersonApi, have_named_axes_and_numbers) {
+  const int32_t axes = panache_model_person_axis_count(model_);
+  ASSERT_GT(axes, 0);
+  for (int32_t a = 0; a < axes; ++a) {
+    ASSERT_NE(panache_model_person_axis_name(model_, a), nullptr);
+    EXPECT_GT(std::strlen(panache_model_person_axis_name(model_, a)), 0u);
+  }
+  EXPECT_EQ(panache_model_person_axis_name(model_, axes), nullptr);
+  EXPECT_EQ(panache_model_person_axis_name(model_, -1), nullptr);
+  std::vector<float> drawn(axes), read(axes, 7.0f);
+  ASSERT_EQ(panache_model_draw_person(model_, 12, drawn.data(), axes), PANACHE_OK);
+  panache_character* one = character();
+  ASSERT_EQ(panache_character_get_person_numbers(one, read.data(), axes), PANACHE_OK);
+  EXPECT_EQ(read, std::vector<float>(axes));
+  ASSERT_EQ(panache_character_set_person(one, 12, 1), PANACHE_OK);
+  ASSERT_EQ(panache_character_get_person_numbers(one, read.data(), axes), PANACHE_OK);
+  EXPECT_EQ(read, drawn);
+}
+
+TEST_F(PersonApi, change_a_character_by_seed_or_by_numbers) {
+  const int32_t axes = panache_model_person_axis_count(model_);
+  std::vector<float> numbers(axes);
+  ASSERT_EQ(panache_model_draw_person(model_, panache_person_seed("mara"), numbers.data(), axes),
+            PANACHE_OK);
+  panache_character* nobody = character();
+  panache_character* zero = character();
+  panache_character* seeded = character();
+  panache_character* numbered = character();
+  panache_character* other = character();
+  ASSERT_EQ(panache_character_set_person(zero, 3, 0), PANACHE_OK);
+  ASSERT_EQ(panache_character_set_person(seeded, panache_person_seed("mara"), 1), PANACHE_OK);
+  ASSERT_EQ(panache_character_set_person_numbers(numbered, numbers.data(), axes), PANACHE_OK);
+  ASSERT_EQ(panache_character_set_person(other, 4, 1), PANACHE_OK);
+  const auto plain = walk(nobody, 60), as_seed = walk(seeded, 60);
+  EXPECT_TRUE(same(walk(zero, 60), plain));
+  EXPECT_FALSE(same(as_seed, plain));
+  EXPECT_TRUE(same(walk(numbered, 60), as_seed));
+  EXPECT_FALSE(same(walk(other, 60), as_seed));
+}
+
+TEST_F(PersonApi, reject_what_is_no_person) {
+  const int32_t axes = panache_model_person_axis_count(model_);
+  std::vector<float> numbers(axes);
+  panache_character* one = character();
+  EXPECT_EQ(panache_character_set_person(one, 1, 2.5f), PANACHE_BAD_ARGUMENT);
+  EXPECT_NE(std::strstr(panache_last_error(), "expected 0 to 2"), nullptr);
+  EXPECT_EQ(panache_character_set_person(one, 1, NAN), PANACHE_BAD_ARGUMENT);
+  EXPECT_EQ(panache_character_set_person_numbers(one, numbers.data(), axes + 1),
+            PANACHE_BAD_ARGUMENT);
+  numbers[0] = INFINITY;
+  EXPECT_EQ(panache_character_set_person_numbers(one, numbers.data(), axes), PANACHE_BAD_ARGUMENT);
+  EXPECT_NE(std::strstr(panache_last_error(), "not finite"), nullptr);
+}
+
+// Gestures over the C interface, of a shipped style.
+
+class Gestures : public panache::test::StickApi {
+ protected:
+  int32_t scared() const { return panache_model_find_style(model_, "scared"); }
+};
+
+TEST_F(Gestures, are_listed_by_style_and_place) {
+  const int32_t style = scared(), count = panache_model_gesture_count(model_, style);
+  ASSERT_GT(count, 0);
+  for (int32_t k = 0; k < count; ++k) {
+    EXPECT_GT(std::strlen(panache_model_gesture_name(model_, style, k)), 0u);
+  }
+  EXPECT_EQ(panache_model_gesture_name(model_, style, count), nullptr);
+  EXPECT_EQ(panache_model_gesture_name(model_, style, -1), nullptr);
+  EXPECT_EQ(panache_model_gesture_count(model_, panache_model_find_style(model_, "robot")), 0);
+  for (const int32_t none : {-1, panache_model_style_count(model_)}) {
+    EXPECT_EQ(panache_model_gesture_count(model_, none), 0);
+    EXPECT_EQ(panache_model_gesture_name(model_, none, 0), nullptr);
+  }
+}
+
+TEST_F(Gestures, a_trigger_plays_one_and_says_where_there_is_none) {
+  panache_character* plain = character("scared");
+  panache_character* triggered = character("scared");
+  EXPECT_EQ(panache_character_trigger(triggered, scared(), 1), 1);
+  EXPECT_EQ(panache_character_trigger(plain, scared(), 99), 0);
+  EXPECT_EQ(panache_character_trigger(plain, -1, 0), 0);
+  EXPECT_EQ(panache_character_trigger(plain, panache_model_find_style(model_, "robot"), 0), 0);
+  EXPECT_FALSE(same(walk(triggered, 60), walk(plain, 60)));
+}
+
+TEST_F(Gestures, are_played_as_often_as_the_option_says_and_not_for_an_older_program) {
+  std::string rates;
+  for (int i = 0; i < panache_model_style_count(model_); ++i)
+    rates += i == scared() ? "1\\n" : "\\n";
+  const std::string bytes =
+      panache::test::with_list(panache::test::model_bytes(), "style_gesture_rates", rates);
+  panache_model* model = nullptr;
+  ASSERT_EQ(panache_model_create(bytes.data(), bytes.size(), &model), PANACHE_OK)
+      << panache_last_error();
+  const auto walk_with = [&](const panache_character_options* options) {
+    panache_character* out = nullptr;
+    EXPECT_EQ(panache_character_create(model, skeleton_, options, &out), PANACHE_OK)
+        << panache_last_error();
+    panache_character_set_strength(out, scared(), 1);
+    const auto walked = walk(out, 240);
+    panache_character_destroy(out);
+    return walked;
+  };
+  panache_character_options options = PANACHE_CHARACTER_OPTIONS;
+  const auto some = walk_with(&options);
+  EXPECT_TRUE(same(some, walk_with(nullptr)));
+  EXPECT_TRUE(same(some, walk_with(&options)));
+  options.gesture_seed = 7;
+  EXPECT_FALSE(same(some, walk_with(&options)));
+  options.gesture_seed = 0;
+  options.gesture_rate = 0;
+  const auto none = walk_with(&options);
+  EXPECT_FALSE(same(some, none));
+  options.gesture_rate = 1;
+  options.struct_size = offsetof(panache_character_options, gesture_rate);
+  EXPECT_TRUE(same(none, walk_with(&options)));
+  options.struct_size = sizeof options;
+  options.gesture_rate = -1;
+  panache_character* rejected = nullptr;
+  EXPECT_EQ(panache_character_create(model, skeleton_, &options, &rejected), PANACHE_BAD_ARGUMENT);
+  EXPECT_EQ(std::string(panache_last_error()).substr(0, 16), "gesture rate of ");
+  panache_model_destroy(model);
 }
 
 }  // namespace
