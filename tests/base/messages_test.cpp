@@ -1,9 +1,18 @@
-#include "base/progress.h"
+// What people are told: errors with their place, progress.
 
 #include <gtest/gtest.h>
 
+#include "base/progress.h"
+#include "base/result.h"
+
 namespace panache {
 namespace {
+
+TEST(Result, a_place_in_front_of_an_error_keeps_its_kind) {
+  const Error error = located("walk.bvh", Error{"no humanoid found", ErrorKind::not_humanoid});
+  EXPECT_EQ(error.message, "walk.bvh: no humanoid found");
+  EXPECT_EQ(error.kind, ErrorKind::not_humanoid);
+}
 
 using std::chrono::milliseconds;
 
