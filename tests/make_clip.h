@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <vector>
 
 #include "clip/clip.h"
 #include "rig/canonical_body.h"
@@ -42,6 +44,22 @@ inline Clip walking_clip(int frames, double fps = 30) {
     turn(right_lower_leg, axis_angle(x, 0.1f + 0.7f * std::max(0.0f, -std::cos(phase))));
   }
   return clip;
+}
+
+// Where the joints are in the world, [joints].
+inline std::vector<Vec3> world_places(const Clip& clip, int frame) {
+  std::vector<Quat> rotations(clip.joints());
+  std::vector<Vec3> places(clip.joints());
+  world_pose(clip.skeleton, clip.pose(frame), {rotations, places});
+  return places;
+}
+
+// Whether all poses are the same to the bit.
+inline bool same_bits(const Clip& a, const Clip& b) {
+  const auto same = [](const auto& p, const auto& q) {
+    return p.size() == q.size() && std::memcmp(p.data(), q.data(), p.size() * sizeof p[0]) == 0;
+  };
+  return same(a.rotations, b.rotations) && same(a.translations, b.translations);
 }
 
 }  // namespace panache::test

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "clip/motion_file.h"
+#include "make_clip.h"
 
 namespace panache::test {
 
@@ -41,9 +42,7 @@ inline int find_joint_named(const Clip& clip, const std::string& name, int nth =
 inline std::vector<std::vector<Vec3>> world_positions(const Clip& clip) {
   std::vector<std::vector<Vec3>> out;
   for (int f = 0; f < clip.frames; ++f) {
-    std::vector<Quat> rotations(clip.joints());
-    out.emplace_back(clip.joints());
-    world_pose(clip.skeleton, clip.pose(f), {rotations, out.back()});
+    out.push_back(world_places(clip, f));
   }
   return out;
 }

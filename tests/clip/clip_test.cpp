@@ -1,8 +1,13 @@
-#include "clip/clip.h"
+// Clips: their poses in the world, between frames, and in other axes.
 
 #include <limits>
+#include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "clip/clip.h"
 
 namespace panache {
 namespace {
@@ -83,6 +88,135 @@ TEST(Clip, duration_counts_every_frame) {
   Clip clip = two_frames();
   clip.frame_time = 0.25;
   EXPECT_EQ(clip.duration(), 0.5);
+}
+
+constexpr float kRightAngle = std::numbers::pi_v<float> / 2;
+
+Skeleton chain(size_t joints) {
+  Skeleton skeleton;
+  skeleton.joints.resize(joints);
+  for (size_t j = 1; j < joints; ++j) skeleton.joints[j].parent = static_cast<int>(j) - 1;
+  return skeleton;
+}
+
+TEST(WorldPose, rotations_and_translations_add_up_from_the_root) {
+  const Skeleton skeleton = chain(3);
+  const std::vector<Quat> rotations = {axis_angle(Vec3{0, 0, 1}, kRightAngle),
+                                       axis_angle(Vec3{1, 0, 0}, kRightAngle), Quat{}};
+  const std::vector<Vec3> translations = {{10, 0, 0}, {1, 0, 0}, {0, 0, 2}};
+  std::vector<Quat> world_rotations(3);
+  std::vector<Vec3> world_translations(3);
+  world_pose(skeleton, {rotations, translations}, {world_rotations, world_translations});
+  // z turns x to y, so the second joint is above the first; then x turns the third's z to -y, which
+  // z turns to +x. Each coordinate is off by a few roundings of numbers of about ten.
+  const Vec3 expected[] = {{10, 0, 0}, {10, 1, 0}, {12, 1, 0}};
+  for (size_t j = 0; j < 3; ++j) {
+    EXPECT_NEAR(world_translations[j].x, expected[j].x, 4e-6f) << j;
+    EXPECT_NEAR(world_translations[j].y, expected[j].y, 4e-6f) << j;
+    EXPECT_NEAR(world_translations[j].z, expected[j].z, 4e-6f) << j;
+  }
+  const Quat product = rotations[0] * rotations[1];
+  EXPECT_NEAR(dot(world_rotations[2], product), 1, 1e-6f);
+}
+
+TEST(WorldPose, each_root_stands_in_the_world) {
+  Skeleton skeleton = chain(2);
+  skeleton.joints[1].parent = -1;
+  const std::vector<Quat> rotations = {rotation_y(1.0f), rotation_y(2.0f)};
+  const std::vector<Vec3> translations = {{1, 2, 3}, {4, 5, 6}};
+  std::vector<Quat> world_rotations(2);
+  std::vector<Vec3> world_translations(2);
+  world_pose(skeleton, {rotations, translations}, {world_rotations, world_translations});
+  EXPECT_EQ(world_rotations, rotations);
+  EXPECT_EQ(world_translations, translations);
+}
+
+TEST(WorldPose, may_work_in_place) {
+  const Skeleton skeleton = chain(4);
+  std::vector<Quat> rotations(4, axis_angle(Vec3{0, 0.6f, 0.8f}, 0.3f));
+  std::vector<Vec3> translations(4, Vec3{1, 2, 3});
+  std::vector<Quat> world_rotations(4);
+  std::vector<Vec3> world_translations(4);
+  world_pose(skeleton, {rotations, translations}, {world_rotations, world_translations});
+  world_pose(skeleton, {rotations, translations}, {rotations, translations});
+  EXPECT_EQ(rotations, world_rotations);
+  EXPECT_EQ(translations, world_translations);
+}
+
+TEST(WorldPose, a_deep_chain_stays_unit) {
+  const Skeleton skeleton = chain(1000);
+  std::vector<Quat> rotations(1000, axis_angle(Vec3{0, 0.6f, 0.8f}, 0.3f));
+  std::vector<Vec3> translations(1000, Vec3{1, 0, 0});
+  world_pose(skeleton, {rotations, translations}, {rotations, translations});
+  EXPECT_NEAR(dot(rotations.back(), rotations.back()), 1, 1e-6f);
+}
+
+Quat some_rotation(Random& random) {
+  const auto number = [&] { return static_cast<float>(random.normal()); };
+  return normalized(Quat{number(), number(), number(), number()});
+}
+
+// A chain with a branch, every joint turned at rest, in three frames.
+Clip turned_clip(bool turned) {
+  Random random(1);
+  Clip clip;
+  for (int j = 0; j < 5; ++j) {
+    Joint joint;
+    joint.name = "joint" + std::to_string(j);
+    joint.parent = j == 4 ? 1 : j - 1;
+    joint.offset = {0.1f * static_cast<float>(j), 0.5f, -0.2f};
+    if (turned) joint.rest = some_rotation(random);
+    joint.ends = {{0, 0.3f, 0.1f}};
+    clip.skeleton.joints.push_back(joint);
+  }
+  clip.resize(3);
+  for (Quat& q : clip.rotations) q = some_rotation(random);
+  for (size_t i = 0; i < clip.translations.size(); ++i) {
+    clip.translations[i] = {0.2f, 0.4f, 0.1f * static_cast<float>(i)};
+  }
+  return clip;
+}
+
+// Five joints of half a metre, a few roundings of 2^-24 each.
+constexpr float kNear = 2e-6f;
+
+void expect_same_positions(const Clip& a, const Clip& b) {
+  std::vector<Quat> turns_a(a.joints()), turns_b(b.joints());
+  std::vector<Vec3> places_a(a.joints()), places_b(b.joints());
+  for (int f = 0; f < a.frames; ++f) {
+    world_pose(a.skeleton, a.pose(f), {turns_a, places_a});
+    world_pose(b.skeleton, b.pose(f), {turns_b, places_b});
+    for (size_t j = 0; j < a.joints(); ++j) {
+      EXPECT_LE(length(places_a[j] - places_b[j]), kNear) << j;
+      const Vec3 end_a = places_a[j] + rotate(turns_a[j], a.skeleton.joints[j].ends[0]);
+      const Vec3 end_b = places_b[j] + rotate(turns_b[j], b.skeleton.joints[j].ends[0]);
+      EXPECT_LE(length(end_a - end_b), kNear) << "end of " << j;
+    }
+  }
+}
+
+Clip at_rest(const Clip& clip) {
+  Clip rest;
+  rest.skeleton = clip.skeleton;
+  rest.resize(1);
+  for (size_t j = 0; j < rest.joints(); ++j) {
+    rest.rotations[j] = rest.skeleton.joints[j].rest;
+    rest.translations[j] = rest.skeleton.joints[j].offset;
+  }
+  return rest;
+}
+
+TEST(RestAxes, a_motion_keeps_every_place_and_rests_without_rotation) {
+  const Clip clip = turned_clip(true), out = in_rest_axes(clip);
+  for (const Joint& joint : out.skeleton.joints) EXPECT_EQ(joint.rest, Quat{});
+  expect_same_positions(clip, out);
+  expect_same_positions(at_rest(clip), at_rest(out));
+}
+
+TEST(RestAxes, a_motion_that_rests_without_rotation_stays_as_it_is) {
+  const Clip clip = turned_clip(false), out = in_rest_axes(clip);
+  EXPECT_EQ(clip.rotations, out.rotations);
+  EXPECT_EQ(clip.translations, out.translations);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "clip/binary_fbx.h"
 #include "clip/fbx.h"
 #include "clip/make_fbx_scene.h"
+#include "make_clip.h"
 
 namespace panache {
 namespace {
@@ -15,6 +16,7 @@ using test::SceneLayer;
 using test::SceneModel;
 using test::ScenePlace;
 using test::SceneStack;
+using test::world_places;
 
 // Positions are floats of at most 10 m along chains of at most eight joints, whose rotations are
 // floats. Metres.
@@ -24,13 +26,6 @@ std::unique_ptr<MotionFile> read_fbx(const std::string& bytes) {
   auto file = parse_fbx(bytes, "in.fbx");
   EXPECT_TRUE(file.ok()) << file.error().message;
   return file ? *std::move(file) : nullptr;
-}
-
-std::vector<Vec3> world_places(const Clip& clip, int frame) {
-  std::vector<Quat> rotations(clip.joints());
-  std::vector<Vec3> out(clip.joints());
-  world_pose(clip.skeleton, clip.pose(frame), {rotations, out});
-  return out;
 }
 
 size_t joint_called(const Clip& clip, const std::string& name, size_t which = 0) {

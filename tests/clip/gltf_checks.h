@@ -9,6 +9,7 @@
 #include "clip/gltf.h"
 #include "fixtures.h"
 #include "make_character.h"
+#include "make_clip.h"
 
 namespace panache {
 
@@ -46,13 +47,7 @@ inline size_t joint_named(const Clip& clip, const std::string& name) {
   return 0;
 }
 
-// Places of the joints in the world, [joints].
-inline std::vector<Vec3> world_places(const Clip& clip, int frame) {
-  std::vector<Quat> rotations(clip.joints());
-  std::vector<Vec3> translations(clip.joints());
-  world_pose(clip.skeleton, clip.pose(frame), {rotations, translations});
-  return translations;
-}
+using test::world_places;
 
 // The file with one clip changed, whose frames come from `frames`; without those, each from itself.
 inline std::string edited(const MotionFile& file, const Clip& changed,
