@@ -66,7 +66,7 @@ TEST_F(ChildProcess, it_ends_with_the_program_however_that_ends) {
   ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     for (const bool is_stopped : {false, true}) {
-      const pid_t program = start({"convert", "long.fbx", "--force", "-o", "long.glb"});
+      const pid_t program = start("convert long.fbx --force -o long.glb");
       const std::string id = std::to_string(program);
       const std::string children = "/proc/" + id + "/task/" + id + "/children";
       ASSERT_TRUE(becomes_true([&] { return !read_file(children)->empty(); }));

@@ -79,7 +79,7 @@ class FbxInAssimp : public ProgramTest {};
 
 TEST_F(FbxInAssimp, a_new_file_is_seen_as_it_was_meant) {
   write("walk.bvh", format_bvh(walking_clip(40)));
-  ASSERT_EQ(run({"stylize", "walk.bvh", "--style", "old=1", "-o", "old.fbx"}).exit, 0);
+  must("stylize walk.bvh --style old=1 -o old.fbx");
   expect_seen_by_assimp(read("old.fbx"), 0.01f);
 }
 
@@ -88,9 +88,7 @@ TEST_F(FbxInAssimp, a_styled_file_is_seen_as_it_was_meant) {
   options.pre_rotation = normalized(Quat{0.3f, -0.5f, 0.2f, 0.7f});
   write("walk.fbx", format_fbx(walking_clip(40), options));
   for (const char* place : {"--replace", "--first", "--last"}) {
-    ASSERT_EQ(
-        run({"stylize", "walk.fbx", "--style", "old=1", place, "--force", "-o", "old.fbx"}).exit,
-        0);
+    must({"stylize", "walk.fbx", "--style", "old=1", place, "--force", "-o", "old.fbx"});
     expect_seen_by_assimp(read("old.fbx"), 0.01f);
   }
 }

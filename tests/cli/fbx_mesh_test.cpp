@@ -116,8 +116,7 @@ TEST_F(FbxMeshes, a_prop_is_where_pivots_and_its_own_geometry_place_it) {
   const std::string text = with_triangle(make_fbx_scene(models, stacks), 2);
   {
     write("in.fbx", text);
-    const Ran ran = run({"convert", "in.fbx", "--force", "-o", "out.glb"});
-    ASSERT_EQ(ran.exit, 0) << ran.err;
+    const Ran ran = must("convert in.fbx --force -o out.glb");
     EXPECT_EQ(ran.err, "");
     const std::vector<Vec3d> corners = corners_in(glb_parts(read("out.glb")));
     ASSERT_EQ(corners.size(), 3u);

@@ -1,6 +1,8 @@
 // FBX characters with mirrored and uneven scales are styled and converted as the same character
 // without them is, whichever reader reads them.
 
+#include <span>
+
 #include "clip/binary_fbx.h"
 #include "cli/fbx_program_test.h"
 #include "clip/make_fbx6.h"
@@ -65,19 +67,18 @@ class FbxScales : public FbxProgramTest {
  protected:
   std::unique_ptr<MotionFile> styled(const std::string& bytes) {
     write("in.fbx", bytes);
-    const Ran ran = run({"stylize", "in.fbx", "--style", "old=1", "--force", "-o", "out.glb"});
-    EXPECT_EQ(ran.exit, 0) << ran.err;
+    must("stylize in.fbx --style old=1 --force -o out.glb");
     Result<std::unique_ptr<MotionFile>> file = read_motion(path("out.glb"));
     EXPECT_TRUE(file.ok()) << file.error().message;
     return file && (*file)->clip_names().size() == 2 ? *std::move(file) : nullptr;
   }
-  // `make` makes the file of a clip whose joints have these scales.
+  // `make` makes the file of a clip whose joints have these scales: the first `count` of kScaled.
   template <class Make>
-  void expect_alike(const Make& make) {
+  void expect_alike(const Make& make, size_t count = kScaled.size()) {
     const Clip walk = walking_clip(40);
     const auto plain = styled(make(walk, JointScales{}));
     ASSERT_TRUE(plain);
-    for (const auto& [name, scales] : kScaled) {
+    for (const auto& [name, scales] : std::span(kScaled).first(count)) {
       SCOPED_TRACE(name);
       const auto other = styled(make(below_scales(walk, scales), scales));
       ASSERT_TRUE(other);
@@ -90,11 +91,13 @@ class FbxScales : public FbxProgramTest {
 };
 
 TEST_F(FbxScales, version_7_is_styled_as_the_plain_character) {
-  expect_alike([](const Clip& clip, const JointScales& scales) {
-    FbxOptions options;
-    options.scales = scales;
-    return format_fbx(clip, options);
-  });
+  expect_alike(
+      [](const Clip& clip, const JointScales& scales) {
+        FbxOptions options;
+        options.scales = scales;
+        return format_fbx(clip, options);
+      },
+      4);
 }
 
 TEST_F(FbxScales, version_7_with_scale_keys_is_styled_as_the_plain_character) {
@@ -109,13 +112,15 @@ TEST_F(FbxScales, version_7_with_scale_keys_is_styled_as_the_plain_character) {
 }
 
 TEST_F(FbxScales, version_7_text_that_Assimp_rejects_is_styled_as_the_plain_character) {
-  expect_alike([](const Clip& clip, const JointScales& scales) {
-    FbxOptions options;
-    options.scales = scales;
-    options.has_scale_keys = true;
-    std::string text = format_fbx(clip, options);
-    return text.replace(text.find("FBXVersion: 7400"), 16, "FBXVersion: 7000");
-  });
+  expect_alike(
+      [](const Clip& clip, const JointScales& scales) {
+        FbxOptions options;
+        options.scales = scales;
+        options.has_scale_keys = true;
+        std::string text = format_fbx(clip, options);
+        return text.replace(text.find("FBXVersion: 7400"), 16, "FBXVersion: 7000");
+      },
+      4);
 }
 
 TEST_F(FbxScales, version_6_is_styled_as_the_plain_character) {

@@ -21,8 +21,7 @@ class Fbx : public FbxProgramTest {
  protected:
   // The file brought to `name` and read again.
   std::unique_ptr<MotionFile> converted(const std::string& from, const std::string& name) {
-    const Ran ran = run({"convert", from, "--force", "-o", name});
-    EXPECT_EQ(ran.exit, 0) << ran.err;
+    const Ran ran = must({"convert", from, "--force", "-o", name});
     EXPECT_EQ(ran.err, "");
     Result<std::unique_ptr<MotionFile>> file = read_motion(path(name));
     EXPECT_TRUE(file.ok()) << file.error().message;
@@ -107,7 +106,7 @@ TEST_F(Fbx, several_at_once_give_what_each_gives_alone) {
   for (const std::string name : {"a", "b", "c", "d", "e"}) {
     write("in/" + name + ".fbx", format_fbx(walking_clip(name[0] - 'a' + 5)));
   }
-  EXPECT_EQ(run({"convert", "in", "--to", "bvh", "--jobs", "5", "-o", "many"}).exit, 0);
+  must("convert in --to bvh --jobs 5 -o many");
   for (const std::string& name : entries("in")) {
     const std::string stem = name.substr(0, 1);
     ASSERT_TRUE(converted("in/" + name, "one.bvh"));
@@ -116,21 +115,15 @@ TEST_F(Fbx, several_at_once_give_what_each_gives_alone) {
 }
 
 TEST_F(Fbx, info_shows_it) {
-  const Ran ran = run({"info", "walk.fbx"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.out.find("  motion  Take 001  5 frames at 30 a second: 0.17 s\n"),
-            std::string::npos)
-      << ran.out;
-  EXPECT_NE(ran.out.find("  unit    1 m (metres, most likely), inferred from the legs\n"),
-            std::string::npos)
-      << ran.out;
+  const Ran ran = must("info walk.fbx");
+  EXPECT_TRUE(holds(ran.out, "  motion  Take 001  5 frames at 30 a second: 0.17 s\n"));
+  EXPECT_TRUE(holds(ran.out, "  unit    1 m (metres, most likely), inferred from the legs\n"));
 }
 
 TEST_F(Fbx, stylize_gives_a_file_of_its_kind_or_a_glb_with_both_motions) {
   write("walk.fbx", format_fbx(walking_clip(40)));
-  const Ran ran = run({"stylize", "walk.fbx", "--style", "old=1", "-o", "out/"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_EQ(run({"stylize", "walk.fbx", "--style", "old=1", "-o", "out/walk.glb"}).exit, 0);
+  must("stylize walk.fbx --style old=1 -o out/");
+  must("stylize walk.fbx --style old=1 -o out/walk.glb");
   EXPECT_EQ(entries("out"), (std::vector<std::string>{"walk.fbx", "walk.glb"}));
   const auto fbx = read_motion(path("out/walk.fbx")), glb = read_motion(path("out/walk.glb"));
   ASSERT_TRUE(fbx.ok()) << fbx.error().message;
@@ -196,9 +189,8 @@ TEST_F(Fbx, every_figure_is_styled_and_stays_where_it_was_though_names_are_equal
         *read_file(PANACHE_SOURCE_DIR "/tests/fixtures/fbx/two-figures-equal-names.fbx"));
   for (const std::string from : {"made.fbx", "other.fbx"}) {
     SCOPED_TRACE(from);
-    const Ran ran = run({"stylize", from, "--style", "old=1", "--force", "-o", "old.fbx"});
-    ASSERT_EQ(ran.exit, 0) << ran.err;
-    ASSERT_EQ(run({"stylize", from, "--style", "old=1", "--force", "-o", "old.glb"}).exit, 0);
+    must({"stylize", from, "--style", "old=1", "--force", "-o", "old.fbx"});
+    must({"stylize", from, "--style", "old=1", "--force", "-o", "old.glb"});
     const auto in = read_motion(path(from)), out = read_motion(path("old.fbx")),
                glb = read_motion(path("old.glb"));
     ASSERT_TRUE(in.ok() && out.ok() && glb.ok());
@@ -215,10 +207,9 @@ TEST_F(Fbx, every_figure_is_styled_and_stays_where_it_was_though_names_are_equal
 
 TEST_F(Fbx, strength_0_and_convert_keep_every_byte) {
   write("walk.fbx", format_fbx(walking_clip(40)));
-  ASSERT_EQ(run({"stylize", "walk.fbx", "--style", "old=0", "--replace", "-o", "same.fbx"}).exit,
-            0);
+  must("stylize walk.fbx --style old=0 --replace -o same.fbx");
   EXPECT_TRUE(read("same.fbx") == read("walk.fbx"));
-  ASSERT_EQ(run({"convert", "walk.fbx", "-o", "copy.fbx"}).exit, 0);
+  must("convert walk.fbx -o copy.fbx");
   EXPECT_TRUE(read("copy.fbx") == read("walk.fbx"));
 }
 
@@ -230,7 +221,7 @@ TEST_F(Fbx, other_formats_become_fbx_and_fbx_becomes_any) {
   ASSERT_TRUE(file);
   expect_same_positions(walk, file->clip(), kNear);
   // A character in FBX gets a motion and stays FBX.
-  ASSERT_EQ(run({"retarget", "walk.bvh", "--onto", "walk.fbx", "-o", "on.fbx"}).exit, 0);
+  must("retarget walk.bvh --onto walk.fbx -o on.fbx");
   const auto on = read_motion(path("on.fbx"));
   ASSERT_TRUE(on.ok()) << on.error().message;
   EXPECT_EQ((*on)->clip_names(), std::vector<std::string>{"walk"});
@@ -240,9 +231,9 @@ TEST_F(Fbx, a_skeleton_without_motion_has_nothing_to_restyle) {
   FbxOptions options;
   options.motion = "";
   write("still.fbx", format_fbx(walking_clip(1), options));
-  const Ran ran = run({"stylize", "still.fbx", "--style", "old=1", "-o", "out.glb"});
+  const Ran ran = run("stylize still.fbx --style old=1 -o out.glb");
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_TRUE(ran.err.starts_with("panache: still.fbx: ")) << ran.err;
+  EXPECT_TRUE(begins(ran.err, "panache: still.fbx: "));
   EXPECT_FALSE(exists("out.glb"));
 }
 
@@ -251,13 +242,13 @@ TEST_F(Fbx, a_damaged_file_gets_a_message) {
   // Each cut leaves a bracket open somewhere else.
   for (size_t size = 100; size < good.size(); size += good.size() / 23) {
     write("bad.fbx", good.substr(0, size));
-    const Ran ran = run({"info", "bad.fbx"});
+    const Ran ran = run("info bad.fbx");
     EXPECT_EQ(ran.exit, 1) << size << ran.out;
-    EXPECT_TRUE(ran.err.starts_with("panache: bad.fbx:")) << ran.err;
+    EXPECT_TRUE(begins(ran.err, "panache: bad.fbx:"));
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
   write("bad.fbx", "no such thing");
-  EXPECT_EQ(run({"info", "bad.fbx"}).err,
+  EXPECT_EQ(run("info bad.fbx").err,
             "panache: bad.fbx: does not begin as FBX files do; is it damaged?\n");
 }
 
@@ -269,7 +260,7 @@ class FbxOfBlender : public Fbx {
     Fbx::SetUp();
     if (IsSkipped()) return;
     if (std::system("command -v blender >/dev/null") != 0) GTEST_SKIP() << "there is no blender";
-    ASSERT_EQ(run({"walker", "-o", "walk.bvh", "--seconds", "2", "--turn", "20"}).exit, 0);
+    must("walker -o walk.bvh --seconds 2 --turn 20");
   }
   // `options` go to Blender's exporter.
   void expect_kept_by_blender(const std::string& options, float size = 1) {
@@ -288,8 +279,7 @@ class FbxOfBlender : public Fbx {
       expect_same_positions((*walk)->clip(), file->clip(), 1e-4f, 1 / size);
       // The skin tells the rest pose, so that the first frame is not taken for it.
       const Ran info = run({"info", name});
-      EXPECT_NE(info.out.find("  start   the first frame is motion\n"), std::string::npos)
-          << info.out;
+      EXPECT_TRUE(holds(info.out, "  start   the first frame is motion\n"));
     }
   }
 
@@ -397,7 +387,7 @@ export('walk.bvh', 'smooth.fbx', smooth)
   ASSERT_TRUE(converted("smooth.fbx", "out.glb"));
   const GltfParts glb = glb_parts(read("out.glb"));
   const std::string used = glb.json.value("extensionsUsed", Json::array()).dump();
-  EXPECT_EQ(used.find("SpecularGlossiness"), std::string::npos) << used;
+  EXPECT_FALSE(holds(used, "SpecularGlossiness"));
   for (const Json& node : glb.json["nodes"]) {
     EXPECT_FALSE(node.contains("matrix")) << node.dump();
     for (const Json& scale : node.value("scale", Json::array())) EXPECT_EQ(scale, 1.0f);

@@ -103,10 +103,6 @@ const Variant kVariants[] = {
 
 class HipsBesideTheSkin : public ProgramTest {
  protected:
-  void must(const std::vector<std::string>& arguments) {
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.exit, 0) << ran.err;
-  }
   // In the last animation of the file the hips go more than 1 m, and they and what hangs on them
   // are as far from the thighs as at rest.
   void expect_together(const std::string& file, const std::string& what) {
@@ -147,14 +143,14 @@ TEST_F(HipsBesideTheSkin, they_stay_with_the_thighs) {
     variant.rewrite(parts);
     write("hero.glb", to_glb(parts));
     expect_together("hero.glb", std::string(variant.name));
-    must({"stylize", "hero.glb", "--style", "old=1", "--clip", "Walk", "--force", "-o", "old.glb"});
+    must("stylize hero.glb --style old=1 --clip Walk --force -o old.glb");
     expect_together("old.glb", std::string(variant.name) + ", styled");
-    must({"retarget", "walk.bvh", "--onto", "hero.glb", "--force", "-o", "walk.glb"});
+    must("retarget walk.bvh --onto hero.glb --force -o walk.glb");
     expect_together("walk.glb", std::string(variant.name) + ", retargeted");
     // As to a character that has no motion of its own.
     parts.json.erase("animations");
     write("still.glb", to_glb(parts));
-    must({"retarget", "walk.bvh", "--onto", "still.glb", "--force", "-o", "walk.glb"});
+    must("retarget walk.bvh --onto still.glb --force -o walk.glb");
     expect_together("walk.glb", std::string(variant.name) + ", retargeted without motion");
   }
 }

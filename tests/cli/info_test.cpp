@@ -18,17 +18,14 @@ class Info : public ProgramTest {
     ProgramTest::SetUp();
     write_walk("walk.bvh");
   }
-  static bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-  }
-  nlohmann::json json_of(std::vector<std::string> arguments) {
+  nlohmann::json json_of(Words arguments) {
     arguments.insert(arguments.begin(), "info");
     arguments.emplace_back("--json");
     return nlohmann::json::parse(run(arguments).out);
   }
   // Which joint of walk.bvh the human joint is, as the map in map.json has it.
   nlohmann::json joint(const std::string& human_joint) {
-    const nlohmann::json info = json_of({"walk.bvh", "--map", "map.json"});
+    const nlohmann::json info = json_of("walk.bvh --map map.json");
     for (const auto& entry : info["mapping"]["joints"]) {
       if (entry["humanoid"] == human_joint) return entry["joint"];
     }
@@ -36,7 +33,7 @@ class Info : public ProgramTest {
   }
   void expect_map_rejected(const std::string& map, const std::string& message) {
     write("map.json", map);
-    const Ran ran = run({"info", "walk.bvh", "--map", "map.json"});
+    const Ran ran = run("info walk.bvh --map map.json");
     EXPECT_EQ(ran.err, "panache: map.json" + message + "\n");
     EXPECT_EQ(ran.exit, 1);
     EXPECT_EQ(ran.out, "");
@@ -44,25 +41,21 @@ class Info : public ProgramTest {
 };
 
 TEST_F(Info, shows_how_the_rig_was_mapped) {
-  const Ran ran = run({"info", "walk.bvh", "--tree"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_TRUE(contains(ran.out, "  joints  21, of which 21 rotate and 1 move\n")) << ran.out;
-  EXPECT_TRUE(contains(ran.out, "  motion  40 frames at 30 a second: 1.33 s\n")) << ran.out;
-  EXPECT_TRUE(contains(ran.out, "  unit    1 m (metres, most likely), inferred from the legs\n"))
-      << ran.out;
-  EXPECT_TRUE(contains(ran.out, "  up      +Y\n")) << ran.out;
-  EXPECT_TRUE(contains(ran.out, "  humanoid       joint of the file  sure  how it was found\n"))
-      << ran.out;
-  EXPECT_TRUE(contains(ran.out, "  leftHand       leftHand           100%  by its name\n"))
-      << ran.out;
-  EXPECT_TRUE(contains(ran.out, "\n  hips (moves)\n    spine\n      chest\n")) << ran.out;
+  const Ran ran = must("info walk.bvh --tree");
+  EXPECT_TRUE(holds(ran.out, "  joints  21, of which 21 rotate and 1 move\n"));
+  EXPECT_TRUE(holds(ran.out, "  motion  40 frames at 30 a second: 1.33 s\n"));
+  EXPECT_TRUE(holds(ran.out, "  unit    1 m (metres, most likely), inferred from the legs\n"));
+  EXPECT_TRUE(holds(ran.out, "  up      +Y\n"));
+  EXPECT_TRUE(holds(ran.out, "  humanoid       joint of the file  sure  how it was found\n"));
+  EXPECT_TRUE(holds(ran.out, "  leftHand       leftHand           100%  by its name\n"));
+  EXPECT_TRUE(holds(ran.out, "\n  hips (moves)\n    spine\n      chest\n"));
 }
 
 TEST_F(Info, draws_the_motion_as_figures) {
-  run({"walker", "--seconds", "2.5", "-o", "long.bvh"});
-  const std::string plain = run({"info", "long.bvh"}).out;
-  const Ran ran = run({"info", "long.bvh", "--figures"});
-  ASSERT_TRUE(ran.out.starts_with(plain)) << ran.out;
+  run("walker --seconds 2.5 -o long.bvh");
+  const std::string plain = run("info long.bvh").out;
+  const Ran ran = run("info long.bvh --figures");
+  ASSERT_TRUE(begins(ran.out, plain));
   std::istringstream drawn(ran.out.substr(plain.size()));
   std::vector<std::string> rows;
   for (std::string row; std::getline(drawn, row);) rows.push_back(row);
@@ -80,7 +73,7 @@ TEST_F(Info, draws_the_motion_as_figures) {
 }
 
 TEST_F(Info, tells_machines_the_same) {
-  const auto info = json_of({"walk.bvh"});
+  const auto info = json_of("walk.bvh");
   ASSERT_EQ(info["clips"].size(), 1u);
   EXPECT_EQ(info["clips"][0]["name"], "");
   EXPECT_EQ(info["clips"][0]["frames"], 40);
@@ -96,21 +89,19 @@ TEST_F(Info, shows_a_file_that_is_no_humanoid_too) {
   Skeleton box;
   box.joints.push_back({"Box", -1, {}, {}, true, true, {{0, 1, 0}}, ""});
   write("box.bvh", format_bvh({box, 1.0 / 30, 2, std::vector<Quat>(2), std::vector<Vec3>(2)}));
-  const Ran ran = run({"info", "box.bvh", "--tree"});
+  const Ran ran = run("info box.bvh --tree");
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_TRUE(contains(ran.out, "  joints  1, of which 1 rotate and 1 move\n")) << ran.out;
-  EXPECT_TRUE(contains(ran.out, "\nSkeleton:\n  Box (moves)\n")) << ran.out;
-  EXPECT_TRUE(ran.err.starts_with("panache: box.bvh: no humanoid found")) << ran.err;
-  const auto info = json_of({"box.bvh"});
+  EXPECT_TRUE(holds(ran.out, "  joints  1, of which 1 rotate and 1 move\n"));
+  EXPECT_TRUE(holds(ran.out, "\nSkeleton:\n  Box (moves)\n"));
+  EXPECT_TRUE(begins(ran.err, "panache: box.bvh: no humanoid found"));
+  const auto info = json_of("box.bvh");
   EXPECT_TRUE(info["mapping"].is_null());
   EXPECT_EQ("panache: " + info["error"].get<std::string>() + "\n", ran.err);
 }
 
 TEST_F(Info, believes_a_unit_and_an_axis) {
-  const Ran ran = run({"info", "walk.bvh", "--scale", "0.0254", "--up", "z"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_TRUE(contains(ran.out, "  unit    0.0254 m, as given\n  up      +Z, as given\n"))
-      << ran.out;
+  const Ran ran = must("info walk.bvh --scale 0.0254 --up z");
+  EXPECT_TRUE(holds(ran.out, "  unit    0.0254 m, as given\n  up      +Z, as given\n"));
   for (const std::string axis : {"-x", "-X"}) {
     EXPECT_EQ(json_of({"walk.bvh", "--up", axis})["mapping"]["up_axis"], "-X");
   }
@@ -144,7 +135,7 @@ TEST_F(Info, believes_a_map_and_finds_the_rest) {
 }
 
 TEST_F(Info, takes_back_what_it_printed) {
-  nlohmann::json info = json_of({"walk.bvh"});
+  nlohmann::json info = json_of("walk.bvh");
   for (auto& entry : info["mapping"]["joints"]) {
     if (entry["humanoid"] == "leftToes") entry["joint"] = nullptr;
   }
@@ -172,34 +163,34 @@ TEST_F(Info, rejects_a_map_that_is_none) {
   expect_map_rejected("{\"mapping\": {\"joints\": [{\"humanoid\": \"neck\"}]}}",
                       ": mapping.joints[0]: expected an object with 'humanoid' and 'joint', as "
                       "panache info --json prints them");
-  const Ran none = run({"info", "walk.bvh", "--map", "none.json"});
+  const Ran none = run("info walk.bvh --map none.json");
   EXPECT_EQ(none.err, "panache: none.json: cannot be read: No such file or directory\n");
 }
 
 TEST_F(Info, tells_of_several_files_and_folders_and_goes_on_after_a_bad_one) {
   write_walk("takes/b.bvh");
   write("takes/a.bvh", "HIERARCHY");
-  const Ran ran = run({"info", "takes", "walk.bvh", "model.safetensors"});
+  const Ran ran = run("info takes walk.bvh model.safetensors");
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_TRUE(ran.err.starts_with("panache: takes/a.bvh:")) << ran.err;
-  EXPECT_EQ(ran.out, run({"info", "takes/b.bvh"}).out + "\n" + run({"info", "walk.bvh"}).out +
-                         "\n" + run({"info", "model.safetensors"}).out);
-  const nlohmann::json list = json_of({"takes", "walk.bvh", "model.safetensors"});
+  EXPECT_TRUE(begins(ran.err, "panache: takes/a.bvh:"));
+  EXPECT_EQ(ran.out, run("info takes/b.bvh").out + "\n" + run("info walk.bvh").out + "\n" +
+                         run("info model.safetensors").out);
+  const nlohmann::json list = json_of("takes walk.bvh model.safetensors");
   ASSERT_EQ(list.size(), 4u);
   EXPECT_EQ(list[0]["file"], "takes/a.bvh");
-  EXPECT_TRUE(contains(list[0]["error"], "takes/a.bvh:"));
-  EXPECT_EQ(list[1], json_of({"takes/b.bvh"}));
+  EXPECT_TRUE(holds(list[0]["error"], "takes/a.bvh:"));
+  EXPECT_EQ(list[1], json_of("takes/b.bvh"));
   EXPECT_EQ(list[3]["metadata"]["format_version"], "1");
-  EXPECT_TRUE(json_of({"takes/b.bvh"}).is_object());
-  EXPECT_EQ(json_of({"takes/*.bvh"}).size(), 2u);
+  EXPECT_TRUE(json_of("takes/b.bvh").is_object());
+  EXPECT_EQ(json_of("takes/*.bvh").size(), 2u);
 }
 
 TEST_F(Info, rejects_a_map_to_a_joint_that_there_is_not) {
   write("map.json", R"({"leftHand": "Hand_L"})");
-  const Ran ran = run({"info", "walk.bvh", "--map", "map.json"});
+  const Ran ran = run("info walk.bvh --map map.json");
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_TRUE(ran.err.starts_with("panache: walk.bvh: ")) << ran.err;
-  EXPECT_TRUE(contains(ran.err, "'Hand_L'")) << ran.err;
+  EXPECT_TRUE(begins(ran.err, "panache: walk.bvh: "));
+  EXPECT_TRUE(holds(ran.err, "'Hand_L'"));
 }
 
 }  // namespace

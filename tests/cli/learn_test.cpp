@@ -30,8 +30,7 @@ class LearnVerb : public ProgramTest {
 
   void make_walk(const std::string& name, const std::string& seconds, const std::string& speed) {
     const Ran ran =
-        run({"walker", "-o", name, "--seconds", seconds, "--speed", speed, "--fps", "30"});
-    ASSERT_EQ(ran.exit, 0) << ran.err;
+        must({"walker", "-o", name, "--seconds", seconds, "--speed", speed, "--fps", "30"});
   }
   Clip clip_of(const std::string& name) const {
     const Result<std::unique_ptr<MotionFile>> file = parse_bvh(read(name), name);
@@ -42,25 +41,12 @@ class LearnVerb : public ProgramTest {
     write(name, format_bvh(clip));
   }
   // From the model that is shipped, where --into names none that is there.
-  Ran learn(Names arguments) const {
-    arguments.insert(arguments.begin(), "learn");
-    return run(arguments, "");
-  }
+  Ran learn(const Words& arguments) const { return run("learn" + arguments, ""); }
   Ran learn_bent(const std::string& into) const {
     return learn({"walk.bvh", "bent.bvh", "--name", "bent", "--into", into});
   }
-  void expect_rejected(const Names& arguments, int exit, const std::string& message) const {
-    const auto state = [this] {
-      std::string all;
-      for (const std::string& name : entries()) all += name + "\n" + read(name);
-      return all;
-    };
-    const std::string before = state();
-    const Ran ran = learn(arguments);
-    EXPECT_EQ(ran.err, "panache: " + message + "\n");
-    EXPECT_EQ(ran.out, "");
-    EXPECT_EQ(ran.exit, exit);
-    EXPECT_TRUE(state() == before) << "files changed, came or went: " << message;
+  void expect_rejected(const Words& arguments, int exit, const std::string& message) const {
+    ProgramTest::expect_rejected("learn" + arguments, exit, message, "");
   }
   json styles_of(const std::string& model) const {
     return json::parse(run({"styles", model, "--json"}, "").out)["styles"];
@@ -98,15 +84,14 @@ class LearnVerb : public ProgramTest {
   // Styles a walk of another speed, and tells how much further it leans.
   double learnt_lean(const std::string& model) {
     make_walk("other.bvh", "4", "1.1");
-    const Ran ran = run({"stylize", "other.bvh", "--style", "bent=1", "-o", "out.bvh", "--force",
-                         "--model", model});
-    EXPECT_EQ(ran.exit, 0) << ran.err;
+    const Ran ran = must({"stylize", "other.bvh", "--style", "bent=1", "-o", "out.bvh", "--force",
+                          "--model", model});
     return ran.exit == 0 ? lean(clip_of("out.bvh")) - lean(clip_of("other.bvh")) : 0;
   }
 };
 
 TEST_F(LearnVerb, a_pair_becomes_a_style_of_a_new_model) {
-  const json shipped = json::parse(run({"styles", "--json"}, "").out);
+  const json shipped = json::parse(run("styles --json", "").out);
   const std::string shipped_path = shipped["model"];
   const std::string before = read_file(shipped_path).value();
   const Ran ran = learn_bent("mine.safetensors");
@@ -161,32 +146,29 @@ TEST_F(LearnVerb, tells_machines_in_json_what_was_learnt) {
 
 TEST_F(LearnVerb, the_style_goes_on_a_journey_as_a_file_that_info_knows) {
   ASSERT_EQ(learn_bent("mine.safetensors").exit, 0);
-  ASSERT_EQ(run({"styles", "mine.safetensors", "--extract", "bent", "-o", "bent.safetensors"}).exit,
-            0);
-  const Ran info = run({"info", "bent.safetensors"});
-  EXPECT_EQ(info.exit, 0) << info.err;
-  EXPECT_EQ(info.out, run({"styles", "bent.safetensors"}).out);
-  EXPECT_EQ(run({"info", "bent.safetensors", "--json"}).out,
-            run({"styles", "bent.safetensors", "--json"}).out);
+  must("styles mine.safetensors --extract bent -o bent.safetensors");
+  const Ran info = must("info bent.safetensors");
+  EXPECT_EQ(info.out, run("styles bent.safetensors").out);
+  EXPECT_EQ(run("info bent.safetensors --json").out, run("styles bent.safetensors --json").out);
 }
 
 TEST_F(LearnVerb, several_pairs_make_one_style) {
   make_walk("run.bvh", "3", "2.8");
   write_clip("bent-run.bvh", bent(clip_of("run.bvh")));
-  const Ran ran = learn({"walk.bvh", "bent.bvh", "run.bvh", "bent-run.bvh", "--name", "bent",
-                         "--into", "mine.safetensors"});
+  const Ran ran =
+      learn("walk.bvh bent.bvh run.bvh bent-run.bvh --name bent --into mine.safetensors");
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.out.find("\n  walk.bvh -> bent.bvh: 4.0 s"), std::string::npos) << ran.out;
-  EXPECT_NE(ran.out.find("\n  run.bvh -> bent-run.bvh: 3.0 s"), std::string::npos) << ran.out;
+  EXPECT_TRUE(holds(ran.out, "\n  walk.bvh -> bent.bvh: 4.0 s"));
+  EXPECT_TRUE(holds(ran.out, "\n  run.bvh -> bent-run.bvh: 3.0 s"));
   EXPECT_EQ(styles_of("mine.safetensors").back()["origin"],
             "2 pairs, 6.97 s: walk.bvh -> bent.bvh; run.bvh -> bent-run.bvh");
 }
 
 TEST_F(LearnVerb, a_styled_walk_alone_is_learnt_beside_other_people) {
-  Names arguments = {"bent.bvh", "--name", "bent", "--into", "mine.safetensors"};
+  Words arguments = "bent.bvh --name bent --into mine.safetensors";
   Ran ran = learn(arguments);
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.out.find("\n  neutral people -> bent.bvh: 4.0 s"), std::string::npos) << ran.out;
+  EXPECT_TRUE(holds(ran.out, "\n  neutral people -> bent.bvh: 4.0 s"));
   EXPECT_TRUE(std::regex_search(
       ran.out, std::regex("\n  without a neutral clip: [0-9]+ other people move alike; [0-9]+ % of "
                           "the difference in posture counts as style\n")))
@@ -204,9 +186,9 @@ TEST_F(LearnVerb, a_styled_walk_alone_is_learnt_beside_other_people) {
 TEST_F(LearnVerb, gltf_files_teach_too_whatever_is_above_their_hips) {
   // Each gets a node above its hips that is called like the file.
   for (const std::string name : {"walk", "bent"}) {
-    ASSERT_EQ(run({"convert", name + ".bvh", "-o", name + ".glb"}).exit, 0);
+    must({"convert", name + ".bvh", "-o", name + ".glb"});
   }
-  const Ran ran = learn({"walk.glb", "bent.glb", "--name", "bent", "--into", "mine.safetensors"});
+  const Ran ran = learn("walk.glb bent.glb --name bent --into mine.safetensors");
   EXPECT_EQ(ran.exit, 0) << ran.err;
   EXPECT_NEAR(learnt_lean("mine.safetensors"), kBend, kBend / 4);
 }
@@ -214,7 +196,7 @@ TEST_F(LearnVerb, gltf_files_teach_too_whatever_is_above_their_hips) {
 TEST_F(LearnVerb, a_name_that_is_taken_needs_force) {
   ASSERT_EQ(learn_bent("mine.safetensors").exit, 0);
   const std::string before = read("mine.safetensors");
-  const Names again = {"walk.bvh", "bent.bvh", "--name", "bent", "--into", "mine.safetensors"};
+  const Words again = "walk.bvh bent.bvh --name bent --into mine.safetensors";
   expect_rejected(again, 1,
                   "mine.safetensors: has a style 'bent' already; give another --name, or --force "
                   "to replace it");
@@ -230,8 +212,7 @@ TEST_F(LearnVerb, a_name_that_is_taken_needs_force) {
 
 TEST_F(LearnVerb, another_style_joins_the_one_learnt_before) {
   ASSERT_EQ(learn_bent("mine.safetensors").exit, 0);
-  const Ran ran =
-      learn({"walk.bvh", "bent.bvh", "--name", "stooped", "--into", "mine.safetensors"});
+  const Ran ran = learn("walk.bvh bent.bvh --name stooped --into mine.safetensors");
   EXPECT_EQ(ran.exit, 0) << ran.err;
   const json styles = styles_of("mine.safetensors");
   EXPECT_EQ(styles.at(styles.size() - 2)["name"], "bent");
@@ -240,23 +221,22 @@ TEST_F(LearnVerb, another_style_joins_the_one_learnt_before) {
 
 TEST_F(LearnVerb, a_wrong_command_is_rejected) {
   const std::string cure = "; expected STYLED, or NEUTRAL STYLED, or several such pairs";
-  expect_rejected(
-      {"walk.bvh", "bent.bvh", "bent.bvh", "--name", "bent", "--into", "mine.safetensors"}, 2,
-      "there are 3 clips" + cure);
-  expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", "mine.txt"}, 2,
+  expect_rejected("walk.bvh bent.bvh bent.bvh --name bent --into mine.safetensors", 2,
+                  "there are 3 clips" + cure);
+  expect_rejected("walk.bvh bent.bvh --name bent --into mine.txt", 2,
                   "--into mine.txt: expected a name that ends in .safetensors");
-  expect_rejected({"walk.bvh", "bent.bvh", "--name", "a=b", "--into", "mine.safetensors"}, 2,
+  expect_rejected("walk.bvh bent.bvh --name a=b --into mine.safetensors", 2,
                   "--name: style name 'a=b': holds a '=', which separates names from strengths");
   expect_rejected({"walk.bvh", "bent.bvh", "--name", "", "--into", "mine.safetensors"}, 2,
                   "--name: style name '': is empty");
-  expect_rejected({"walk.bvh", "bent.bvh", "--into", "mine.safetensors"}, 2,
+  expect_rejected("walk.bvh bent.bvh --into mine.safetensors", 2,
                   "--name is required; see panache learn --help");
 }
 
 TEST_F(LearnVerb, a_model_that_nobody_may_write_to_stays_as_it_is) {
   ASSERT_EQ(learn_bent("mine.safetensors").exit, 0);
   ASSERT_EQ(::chmod(path("mine.safetensors").c_str(), 0444), 0);
-  expect_rejected({"walk.bvh", "bent.bvh", "--name", "new", "--into", "mine.safetensors"}, 1,
+  expect_rejected("walk.bvh bent.bvh --name new --into mine.safetensors", 1,
                   "mine.safetensors: is read-only and stays as it is; change a copy of it, or "
                   "allow writing");
 }
@@ -275,11 +255,11 @@ TEST_F(LearnVerb, a_model_that_cannot_learn_says_so) {
 TEST_F(LearnVerb, a_file_that_is_no_model_is_rejected) {
   write("none.safetensors", "");
   expect_rejected(
-      {"walk.bvh", "bent.bvh", "--name", "bent", "--into", "none.safetensors"}, 1,
+      "walk.bvh bent.bvh --name bent --into none.safetensors", 1,
       "none.safetensors: has 0 bytes; expected a safetensors file, which starts with the "
       "8-byte length of its header");
-  ASSERT_EQ(run({"styles", "--extract", "old", "-o", "old.safetensors"}).exit, 0);
-  expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", "old.safetensors"}, 1,
+  must("styles --extract old -o old.safetensors");
+  expect_rejected("walk.bvh bent.bvh --name bent --into old.safetensors", 1,
                   "old.safetensors: is a style file, not a model; panache styles MODEL --add FILE "
                   "puts it into one");
 }
@@ -316,7 +296,7 @@ TEST_F(LearnVerb, clips_that_are_no_pair_are_rejected) {
     }
   }
   write_clip("fewer.bvh", cut_off);
-  expect_rejected({"walk.bvh", "fewer.bvh", "--name", "bent", "--into", "mine.safetensors"}, 1,
+  expect_rejected("walk.bvh fewer.bvh --name bent --into mine.safetensors", 1,
                   "walk.bvh and fewer.bvh: have different skeletons (" + std::to_string(joints) +
                       " and " + std::to_string(joints - 1) +
                       " joints); a pair needs the same joints of the body: leave the neutral clip "
@@ -324,7 +304,7 @@ TEST_F(LearnVerb, clips_that_are_no_pair_are_rejected) {
                       "NEUTRAL)");
   // Half a second that may advance by 3 frames at a time, and wait twice in a row.
   write_clip("brief.bvh", cut(clip_of("walk.bvh"), 15));
-  expect_rejected({"brief.bvh", "bent.bvh", "--name", "bent", "--into", "mine.safetensors"}, 1,
+  expect_rejected("brief.bvh bent.bvh --name bent --into mine.safetensors", 1,
                   "brief.bvh and bent.bvh: no match was found between them, as the neutral one is "
                   "too short for the styled one; a pair shows one action, done neutrally and in "
                   "the style");
@@ -332,13 +312,13 @@ TEST_F(LearnVerb, clips_that_are_no_pair_are_rejected) {
 
 TEST_F(LearnVerb, warnings_are_for_people_and_do_not_stop_it) {
   write_clip("brief.bvh", cut(clip_of("bent.bvh"), 24));
-  const Names arguments = {"walk.bvh", "brief.bvh", "--name", "bent", "--into", "mine.safetensors"};
+  const Words arguments = "walk.bvh brief.bvh --name bent --into mine.safetensors";
   const std::string warning =
       "brief.bvh: has only 0.80 s; 2 to 3 s of a walk, or the whole of an action, teach more";
   const Ran ran = learn(arguments);
   EXPECT_EQ(ran.exit, 0);
   EXPECT_EQ(ran.err, "panache: warning: " + warning + "\n");
-  EXPECT_TRUE(ran.out.starts_with("learnt 'bent' in ")) << ran.out;
+  EXPECT_TRUE(begins(ran.out, "learnt 'bent' in "));
   Names for_machines = arguments;
   for_machines.insert(for_machines.end(), {"--force", "--json"});
   EXPECT_EQ(json::parse(learn(for_machines).out)["pairs"][0]["warnings"], json::array({warning}));
@@ -346,7 +326,7 @@ TEST_F(LearnVerb, warnings_are_for_people_and_do_not_stop_it) {
 
 TEST_F(LearnVerb, what_is_too_short_to_be_judged_is_learnt_and_not_judged) {
   write_clip("brief.bvh", cut(clip_of("bent.bvh"), 15));
-  Names arguments = {"walk.bvh", "brief.bvh", "--name", "bent", "--into", "mine.safetensors"};
+  Words arguments = "walk.bvh brief.bvh --name bent --into mine.safetensors";
   const Ran ran = learn(arguments);
   EXPECT_EQ(ran.exit, 0) << ran.err;
   EXPECT_TRUE(ran.out.ends_with("  too short to hold a quarter back, so the error is unknown\n"))
@@ -365,14 +345,13 @@ TEST_F(LearnVerb, a_style_that_is_no_better_than_the_input_says_so) {
   const auto from = static_cast<long>(walk.joints() * static_cast<size_t>(walk.frames * 3 / 4));
   std::copy(walk.rotations.begin() + from, walk.rotations.end(), half.rotations.begin() + from);
   write_clip("half.bvh", half);
-  Names arguments = {"walk.bvh", "half.bvh", "--name", "bent", "--into", "mine.safetensors"};
+  Words arguments = "walk.bvh half.bvh --name bent --into mine.safetensors";
   const Ran ran = learn(arguments);
   EXPECT_EQ(ran.exit, 0);
-  EXPECT_TRUE(
-      ran.err.starts_with("panache: warning: 'bent' is no better than the input on the "
-                          "part of the clips that was held back ("))
-      << ran.err;
-  EXPECT_NE(ran.out.find("\n  poor: joints "), std::string::npos) << ran.out;
+  EXPECT_TRUE(begins(ran.err,
+                     "panache: warning: 'bent' is no better than the input on the "
+                     "part of the clips that was held back ("));
+  EXPECT_TRUE(holds(ran.out, "\n  poor: joints "));
   arguments.insert(arguments.end(), {"--force", "--json"});
   const json out = json::parse(learn(arguments).out);
   EXPECT_EQ(out["verdict"], "poor");
@@ -399,33 +378,31 @@ TEST_F(LearnVerb, clips_with_other_rest_poses_teach_as_well) {
     }
   }
   write_clip("a-pose.bvh", other);
-  const Ran ran = learn({"walk.bvh", "a-pose.bvh", "--name", "bent", "--into", "mine.safetensors"});
+  const Ran ran = learn("walk.bvh a-pose.bvh --name bent --into mine.safetensors");
   EXPECT_EQ(ran.exit, 0) << ran.err;
   EXPECT_EQ(ran.err, "");
-  EXPECT_NE(ran.out.find("\n  good: joints "), std::string::npos) << ran.out;
+  EXPECT_TRUE(holds(ran.out, "\n  good: joints "));
   EXPECT_NEAR(learnt_lean("mine.safetensors"), kBend, kBend / 4);
 }
 
 TEST_F(LearnVerb, a_place_that_takes_no_file_is_told) {
-  expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", "walk.bvh/mine.safetensors"},
-                  1, "walk.bvh/mine.safetensors: cannot be written: Not a directory");
+  expect_rejected("walk.bvh bent.bvh --name bent --into walk.bvh/mine.safetensors", 1,
+                  "walk.bvh/mine.safetensors: cannot be written: Not a directory");
   const std::string longest = std::string(300, 'x') + ".safetensors";
   expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", longest}, 1,
                   longest + ": cannot be written: File name too long");
 }
 
 TEST_F(LearnVerb, a_pose_is_a_style) {
-  const Ran ran = learn({"bent.bvh", "--pose", "--name", "posed", "--into", "new.safetensors"});
+  const Ran ran = learn("bent.bvh --pose --name posed --into new.safetensors");
   EXPECT_EQ(ran.exit, 0) << ran.err;
   EXPECT_TRUE(
       ran.out.ends_with("  standing upright -> bent.bvh: a pose; all motion is changed alike\n"))
       << ran.out;
-  const Ran two = learn(
-      {"walk.bvh", "bent.bvh", "--pose", "--name", "bent", "--into", "new.safetensors", "--json"});
+  const Ran two = learn("walk.bvh bent.bvh --pose --name bent --into new.safetensors --json");
   EXPECT_EQ(json::parse(two.out)["verdict"], json());
-  expect_rejected(
-      {"walk.bvh", "walk.bvh", "bent.bvh", "--pose", "--name", "x", "--into", "x.safetensors"}, 2,
-      "--pose: expected POSE or NEUTRAL POSE, found 3 clips");
+  expect_rejected("walk.bvh walk.bvh bent.bvh --pose --name x --into x.safetensors", 2,
+                  "--pose: expected POSE or NEUTRAL POSE, found 3 clips");
 }
 
 }  // namespace

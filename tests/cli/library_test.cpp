@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
-#include "make_learnt.h"
+#include "make_model.h"
 #include "rig/rig.h"
 
 namespace panache::test {
@@ -39,12 +39,10 @@ class StyleLibraryTest : public ProgramTest {
 };
 
 TEST_F(StyleLibraryTest, styles_are_listed_with_their_gestures) {
-  const std::string text = run({"styles", "mine.safetensors"}).out;
-  EXPECT_NE(
-      text.find("  old      looks old\n           gestures, 0.5 a second: glances left, 1.2 s\n"),
-      std::string::npos)
-      << text;
-  const auto printed = nlohmann::json::parse(run({"styles", "mine.safetensors", "--json"}).out);
+  const std::string text = run("styles mine.safetensors").out;
+  EXPECT_TRUE(holds(
+      text, "  old      looks old\n           gestures, 0.5 a second: glances left, 1.2 s\n"));
+  const auto printed = nlohmann::json::parse(run("styles mine.safetensors --json").out);
   EXPECT_EQ(printed["styles"][1]["gestures"], nlohmann::json({"glances left, 1.2 s"}));
   EXPECT_EQ(printed["styles"][1]["gesture_rate"], "0.5");
   EXPECT_TRUE(printed["styles"][0]["gestures"].empty());
@@ -55,21 +53,19 @@ TEST_F(StyleLibraryTest, styles_are_listed_with_their_gestures) {
 TEST_F(StyleLibraryTest, a_folder_of_style_files_is_a_library) {
   std::filesystem::create_directory(path("library"));
   for (const char* name : {"limping", "old"}) {
-    const Ran ran = run({"styles", "mine.safetensors", "--extract", name, "-o",
-                         "library/" + std::string(name) + ".safetensors"});
-    ASSERT_EQ(ran.exit, 0) << ran.err;
+    must({"styles", "mine.safetensors", "--extract", name, "-o",
+          "library/" + std::string(name) + ".safetensors"});
   }
   write("library/model.safetensors", read("mine.safetensors"));  // No style.
   write("library/notes.txt", "no style");
-  const Ran listed = run({"styles", "library"});
-  EXPECT_EQ(listed.exit, 0) << listed.err;
+  const Ran listed = must("styles library");
   EXPECT_EQ(listed.out,
             "library\n2 styles:\n"
             "  limping  looks limping\n"
             "           source: my own capture; licence: CC0; limping.safetensors\n"
             "  old      looks old\n"
             "           source: not stated; licence: CC0; old.safetensors\n");
-  const auto printed = nlohmann::json::parse(run({"styles", "library", "--json"}).out);
+  const auto printed = nlohmann::json::parse(run("styles library --json").out);
   ASSERT_EQ(printed["styles"].size(), 2u);
   for (const auto& style : printed["styles"]) {
     const std::string picture = style["thumbnail"];
@@ -80,24 +76,24 @@ TEST_F(StyleLibraryTest, a_folder_of_style_files_is_a_library) {
   EXPECT_EQ(printed["styles"][0]["style_licence"], "CC0");
   // What is not readable is told, and the others are listed.
   write("library/broken.safetensors", "broken");
-  const Ran broken = run({"styles", "library"});
+  const Ran broken = run("styles library");
   EXPECT_EQ(broken.exit, 1);
   EXPECT_EQ(broken.out, listed.out);
-  EXPECT_NE(broken.err.find("library/broken.safetensors: "), std::string::npos) << broken.err;
-  EXPECT_EQ(run({"styles", "nowhere/"}).exit, 1);
+  EXPECT_TRUE(holds(broken.err, "library/broken.safetensors: "));
+  EXPECT_EQ(run("styles nowhere/").exit, 1);
 }
 
 TEST_F(StyleLibraryTest, a_style_keeps_all_that_is_said_of_it_on_its_way) {
   const auto extract = [&](const std::string& from, const std::string& to) {
-    EXPECT_EQ(run({"styles", from, "--extract", "limping", "-o", to}).exit, 0);
+    must({"styles", from, "--extract", "limping", "-o", to});
     return *parse_safetensors(read(to), to);
   };
   const TensorFile once = extract("mine.safetensors", "once.safetensors");
   EXPECT_EQ(once.metadata.at("source"), "my own capture");
   EXPECT_EQ(once.metadata.at("style_licence"), "CC0");
   write("other.safetensors", read("mine.safetensors"));
-  ASSERT_EQ(run({"styles", "other.safetensors", "--remove", "limping"}).exit, 0);
-  ASSERT_EQ(run({"styles", "other.safetensors", "--add", "once.safetensors"}).exit, 0);
+  must("styles other.safetensors --remove limping");
+  must("styles other.safetensors --add once.safetensors");
   const TensorFile twice = extract("other.safetensors", "twice.safetensors");
   EXPECT_EQ(twice.metadata, once.metadata);
   EXPECT_TRUE(twice.tensors.contains("gesture.0"));
@@ -105,15 +101,14 @@ TEST_F(StyleLibraryTest, a_style_keeps_all_that_is_said_of_it_on_its_way) {
 
 TEST_F(StyleLibraryTest, gestures_are_played_as_often_as_asked_for) {
   write_walk("walk.bvh", 240);
-  const auto stylize = [&](const std::string& out, std::vector<std::string> more) {
+  const auto stylize = [&](const std::string& out, Words more) {
     std::vector<std::string> arguments = {"stylize", "walk.bvh", "--model", "mine.safetensors",
                                           "--style", "old=1",    "-o",      out};
     arguments.insert(arguments.end(), more.begin(), more.end());
     if (std::ranges::find(more, "--loop") == more.end()) {
       arguments.insert(arguments.end(), {"--loop", "off"});
     }
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.exit, 0) << ran.err;
+    must(arguments);
     return read(out);
   };
   const std::string some = stylize("some.bvh", {});
@@ -130,7 +125,7 @@ TEST_F(StyleLibraryTest, gestures_are_played_as_often_as_asked_for) {
 }
 
 TEST_F(StyleLibraryTest, learning_tells_of_gestures_and_keeps_source_and_licence) {
-  ASSERT_EQ(run({"walker", "-o", "neutral.bvh", "--seconds", "8", "--fps", "30"}).exit, 0);
+  must("walker -o neutral.bvh --seconds 8 --fps 30");
   Clip clip = (*parse_bvh(read("neutral.bvh"), "neutral.bvh"))->clip();
   const Rig rig = *Rig::create(clip);
   for (int f = 90; f <= 135; ++f) {
@@ -139,14 +134,12 @@ TEST_F(StyleLibraryTest, learning_tells_of_gestures_and_keeps_source_and_licence
     rotation = rotation * rotation_y(-0.7f * turn);
   }
   write("nosy.bvh", format_bvh(clip));
-  const Ran ran = run({"learn", "neutral.bvh", "nosy.bvh", "--name", "nosy", "--into",
-                       "new.safetensors", "--source", "my\nown", "--licence", "CC BY 4.0"},
-                      "");
-  ASSERT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.out.find("  gesture in nosy.bvh at "), std::string::npos) << ran.out;
-  EXPECT_NE(ran.out.find(" s: glances right, "), std::string::npos) << ran.out;
-  const auto styles =
-      nlohmann::json::parse(run({"styles", "new.safetensors", "--json"}).out)["styles"];
+  const Ran ran = must({"learn", "neutral.bvh", "nosy.bvh", "--name", "nosy", "--into",
+                        "new.safetensors", "--source", "my\nown", "--licence", "CC BY 4.0"},
+                       "");
+  EXPECT_TRUE(holds(ran.out, "  gesture in nosy.bvh at "));
+  EXPECT_TRUE(holds(ran.out, " s: glances right, "));
+  const auto styles = nlohmann::json::parse(run("styles new.safetensors --json").out)["styles"];
   EXPECT_EQ(styles.back()["gestures"].size(), 1u);
   EXPECT_EQ(styles.back()["source"], "my own");
   EXPECT_EQ(styles.back()["licence"], "CC BY 4.0");

@@ -61,7 +61,7 @@ class LiveVerb : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    if (run({"live", "--help"}).out.find("not in this build") != std::string::npos) {
+    if (run("live --help").out.find("not in this build") != std::string::npos) {
       GTEST_SKIP() << "this build has no liblo";
     }
     Peer free;
@@ -77,8 +77,7 @@ class LiveVerb : public ProgramTest {
 
   // Starts the program, its output going to NAME.out and NAME.err; without `model` it takes the one
   // that is shipped.
-  pid_t start(const std::string& name, std::vector<std::string> arguments,
-              const char* model = "model.safetensors") {
+  pid_t start(const std::string& name, Words arguments, const char* model = "model.safetensors") {
     const pid_t child = ::fork();
     if (child == 0) {
       constexpr int kCreate = O_WRONLY | O_CREAT | O_TRUNC;
@@ -98,7 +97,7 @@ class LiveVerb : public ProgramTest {
   }
 
   // Starts the relay from in_ to `sink` and waits until it listens.
-  void start_live(std::vector<std::string> arguments, const char* model = "model.safetensors",
+  void start_live(Words arguments, const char* model = "model.safetensors",
                   const std::string& host = "") {
     arguments.insert(arguments.begin(), {"live", "--vmc-in", host + std::to_string(in_),
                                          "--vmc-out", "127.0.0.1:" + sink_.port_name()});
@@ -107,7 +106,7 @@ class LiveVerb : public ProgramTest {
     for (int i = 0; i < kPatience && !exists("live.err"); ++i) nap(5);
     for (int i = 0; i < kPatience && read("live.err").find("relaying") == std::string::npos; ++i)
       nap(5);
-    ASSERT_NE(read("live.err").find("relaying"), std::string::npos) << read("live.err");
+    ASSERT_TRUE(holds(read("live.err"), "relaying"));
   }
 
   Ran end(pid_t child, int signal) {
@@ -151,8 +150,8 @@ class LiveVerb : public ProgramTest {
   }
   // The same with a walk that the relay makes old.
   void play_old(const Change& change) {
-    ASSERT_EQ(run({"walker", "-o", "walk.bvh", "--seconds", "3"}).exit, 0);
-    start_live({"--style", "old=1"}, nullptr);
+    must("walker -o walk.bvh --seconds 3");
+    start_live("--style old=1", nullptr);
     play(2.5, change);
     const Ran ran = end_live();
     EXPECT_EQ(ran.exit, 0) << ran.err;
@@ -233,7 +232,7 @@ TEST_F(LiveVerb, neutral_motion_and_other_messages_pass_byte_for_byte_until_a_st
             bones_of(sent_[sent_.size() - 2])["Spine"].position);
   const Ran ran = end_live();
   EXPECT_EQ(ran.exit, 0);
-  EXPECT_NE(ran.err.find(", neutral\n"), std::string::npos) << ran.err;
+  EXPECT_TRUE(holds(ran.err, ", neutral\n"));
 }
 
 TEST_F(LiveVerb, an_old_walk_leans_forward_even_when_each_bone_comes_alone) {
@@ -285,20 +284,20 @@ TEST_F(LiveVerb, a_sender_that_gives_no_positions_is_styled_by_angles) {
 }
 
 TEST_F(LiveVerb, each_sender_moves_as_a_person) {
-  ASSERT_EQ(run({"walker", "-o", "walk.bvh", "--seconds", "3"}).exit, 0);
-  start_live({"--person", "random", "--seed", "4"}, nullptr);
+  must("walker -o walk.bvh --seconds 3");
+  start_live("--person random --seed 4", nullptr);
   play(2.5);
   const std::map<std::string, Bone> in = last_of(sent_), out = last_of(got_);
   EXPECT_LT(std::abs(dot(in.at("LeftUpperArm").rotation, out.at("LeftUpperArm").rotation)),
             0.9999f);
   const Ran ran = end_live();
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.err.find("sender 1 moves as person "), std::string::npos) << ran.err;
+  EXPECT_TRUE(holds(ran.err, "sender 1 moves as person "));
 }
 
 TEST_F(LiveVerb, a_mirrored_walk_swings_the_other_leg) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
-  start_live({"--mirror"});
+  start_live("--mirror");
   play(1.5);
   const std::map<std::string, Bone> in = last_of(sent_), out = last_of(got_);
   for (const std::string bone : {"UpperLeg", "LowerArm", "Foot"}) {
@@ -325,8 +324,8 @@ TEST_F(LiveVerb, says_once_how_to_connect_and_once_that_nothing_comes_any_more) 
   for (int i = 0; i < kPatience && count(hint) == 0; ++i) nap(5);
   nap(1500);
   EXPECT_EQ(count(hint), 1u);
-  EXPECT_NE(read("live.err").find("'panache live send walk.bvh --to " + std::to_string(in_) + "'"),
-            std::string::npos);
+  EXPECT_TRUE(
+      holds(read("live.err"), "'panache live send walk.bvh --to " + std::to_string(in_) + "'"));
   play(0.3);
   for (int i = 0; i < kPatience && count("no motion comes in any more") == 0; ++i) nap(5);
   nap(1200);
@@ -338,7 +337,7 @@ TEST_F(LiveVerb, says_once_how_to_connect_and_once_that_nothing_comes_any_more) 
 
 TEST_F(LiveVerb, sigterm_ends_it_with_a_recording_of_all_frames) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
-  start_live({"--record", "take.bvh"});
+  start_live("--record take.bvh");
   play(1.5);
   const Ran ran = end_live(SIGTERM);
   EXPECT_EQ(ran.exit, 0) << ran.err;
@@ -348,8 +347,7 @@ TEST_F(LiveVerb, sigterm_ends_it_with_a_recording_of_all_frames) {
       << ran.out;
   EXPECT_GE(relayed, 90);
   EXPECT_LE(relayed, static_cast<int>(sent_.size()));
-  EXPECT_NE(ran.out.find("\nrecorded " + std::to_string(relayed) + " frames ("), std::string::npos)
-      << ran.out;
+  EXPECT_TRUE(holds(ran.out, "\nrecorded " + std::to_string(relayed) + " frames ("));
   const auto file = read_motion(path("take.bvh"));
   ASSERT_TRUE(file.ok()) << file.error().message;
   const Clip& clip = (*file)->clip();
@@ -400,7 +398,7 @@ TEST_F(LiveVerb, what_waits_of_a_sender_is_sent_when_it_makes_room_for_another) 
 TEST_F(LiveVerb, a_message_changes_the_side_of_a_style) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
   // The mean of both sides holds the head in the middle.
-  const auto sideways = [&](const std::vector<std::string>& options, const Bytes& message) {
+  const auto sideways = [&](const Words& options, const Bytes& message) {
     start_live(options);
     tracker_.send(in_, message);
     play(2.5);
@@ -417,19 +415,19 @@ TEST_F(LiveVerb, a_message_changes_the_side_of_a_style) {
     return sum / static_cast<float>(count);
   };
   const Bytes none = style_message("sad", 0);
-  const float captured = sideways({"--style", "old=1"}, none);
+  const float captured = sideways("--style old=1", none);
   ASSERT_GT(std::abs(captured), 0.005f);
-  const float mirrored = sideways({"--style", "old=1", "--side", "old=mirrored"}, none);
+  const float mirrored = sideways("--style old=1 --side old=mirrored", none);
   EXPECT_LT(mirrored / captured, 0);
   const Bytes word = osc("/panache/side") + osc(",ss") + osc("old") + osc("mirrored");
-  EXPECT_NEAR(sideways({"--style", "old=1"}, word), mirrored, 0.2f * std::abs(mirrored));
+  EXPECT_NEAR(sideways("--style old=1", word), mirrored, 0.2f * std::abs(mirrored));
   const Bytes number = osc("/panache/side") + osc(",sf") + osc("old") + osc(-1.0f);
-  EXPECT_NEAR(sideways({"--style", "old=1"}, number), mirrored, 0.2f * std::abs(mirrored));
+  EXPECT_NEAR(sideways("--style old=1", number), mirrored, 0.2f * std::abs(mirrored));
 }
 
 TEST_F(LiveVerb, garbage_does_not_end_it) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
-  start_live({"--style", "old=1"});
+  start_live("--style old=1");
   play(1.3);
   ASSERT_FALSE(sent_.empty());
   const Bytes good = sent_.back();
@@ -482,7 +480,7 @@ TEST_F(LiveVerb, garbage_does_not_end_it) {
   EXPECT_EQ(got_[1], blend_message(0.25f));
   const Ran ran = end_live();
   EXPECT_EQ(ran.exit, 0);
-  EXPECT_EQ(ran.out.find(" 0 rejected"), std::string::npos) << ran.out;
+  EXPECT_FALSE(holds(ran.out, " 0 rejected"));
 }
 
 TEST_F(LiveVerb, listens_where_it_is_told) {
@@ -505,7 +503,7 @@ TEST_F(LiveVerb, listens_where_it_is_told) {
 
 TEST_F(LiveVerb, sends_to_the_avatar_alone_whatever_it_receives) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
-  start_live({"--style", "old=1"});
+  start_live("--style old=1");
   const Peer stranger;
   stranger.send(in_, "GET / HTTP/1.1\r\n\r\n");
   for (const std::string path : {"/VMC/Ext/Set/Res", "/VMC/Ext/Set/Req", "/ping", "/status"}) {
@@ -528,7 +526,7 @@ TEST_F(LiveVerb, sends_to_the_avatar_alone_whatever_it_receives) {
 }
 
 TEST_F(LiveVerb, does_not_grow_in_a_flood_of_senders) {
-  start_live({"--style", "old=1"});
+  start_live("--style old=1");
   const auto resident_pages = [&] {
     long size = 0, resident = 0;
     EXPECT_EQ(std::sscanf(read_file("/proc/" + std::to_string(live_) + "/statm")->c_str(),
@@ -569,43 +567,33 @@ TEST_F(LiveVerb, does_not_grow_in_a_flood_of_senders) {
 }
 
 TEST_F(LiveVerb, explains_a_wrong_wish_before_it_starts) {
-  const auto expect_rejected = [&](const std::vector<std::string>& arguments, int exit,
-                                   const std::string& message) {
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.err, "panache: " + message + "\n");
-    EXPECT_EQ(ran.exit, exit);
-  };
   write("take.bvh", "mine");
   write_walk("walk.bvh");
-  expect_rejected({"live", "--record", "take.bvh"}, 1,
-                  "take.bvh: exists already; --force overwrites it");
+  expect_rejected("live --record take.bvh", 1, "take.bvh: exists already; --force overwrites it");
   EXPECT_EQ(read("take.bvh"), "mine");
-  expect_rejected({"live", "--record", "take.glb"}, 2,
+  expect_rejected("live --record take.glb", 2,
                   "--record take.glb: expected a name that ends in .bvh");
-  expect_rejected({"live", "--vmc-in", "0"}, 2,
-                  "--vmc-in: expected a port from 1 to 65535, found '0'");
-  expect_rejected({"live", "--vmc-out", "there:x"}, 2,
+  expect_rejected("live --vmc-in 0", 2, "--vmc-in: expected a port from 1 to 65535, found '0'");
+  expect_rejected("live --vmc-out there:x", 2,
                   "--vmc-out: expected a port from 1 to 65535, found 'x'");
-  expect_rejected({"live", "--vmc-in", "40000", "--vmc-out", "40000"}, 2,
+  expect_rejected("live --vmc-in 40000 --vmc-out 40000", 2,
                   "--vmc-out: expected another port than that of --vmc-in, found 40000 for both");
-  expect_rejected({"live", "--style", "old=1..0"}, 2,
+  expect_rejected("live --style old=1..0", 2,
                   "--style old=1..0: live motion has no end to change towards; expected one "
                   "strength");
   expect_rejected(
       {"live", "--vmc-in", sink_.port_name()}, 1,
       "--vmc-in: cannot listen at port " + sink_.port_name() + ": Address already in use");
-  expect_rejected({"live", "send", "walk.bvh", "--fps", "0"}, 2,
+  expect_rejected("live send walk.bvh --fps 0", 2,
                   "--fps: expected a number from 1 to 1000, found 0");
-  expect_rejected({"live", "send"}, 2, "FILE is required; see panache live send --help");
-  expect_rejected({"live", "send", "walk.bvh", "--loops"}, 2,
+  expect_rejected("live send", 2, "FILE is required; see panache live send --help");
+  expect_rejected("live send walk.bvh --loops", 2,
                   "there is no option '--loops'; the nearest is --loop; see panache live send "
                   "--help");
-  expect_rejected({"live", "--style", "old=1", "send", "walk.bvh"}, 2,
+  expect_rejected("live --style old=1 send walk.bvh", 2,
                   "--style: 'live send' has no such option; see panache live send --help");
-  expect_rejected({"live", "sned", "walk.bvh"}, 2,
-                  "unexpected argument 'sned'; see panache live --help");
-  expect_rejected({"live", "send", "none.bvh"}, 1,
-                  "none.bvh: cannot be read: No such file or directory");
+  expect_rejected("live sned walk.bvh", 2, "unexpected argument 'sned'; see panache live --help");
+  expect_rejected("live send none.bvh", 1, "none.bvh: cannot be read: No such file or directory");
 }
 
 }  // namespace

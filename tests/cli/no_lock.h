@@ -13,10 +13,9 @@ namespace panache::test {
 
 // Expects a program that works on `input`, says that it cannot be locked, and writes nothing. The
 // last argument is its output.
-inline void expect_no_work_without_a_lock(
-    [[maybe_unused]] const ProgramTest& test,
-    [[maybe_unused]] const std::vector<std::string>& arguments,
-    [[maybe_unused]] const std::string& input) {
+inline void expect_no_work_without_a_lock([[maybe_unused]] const ProgramTest& test,
+                                          [[maybe_unused]] const Words& arguments,
+                                          [[maybe_unused]] const std::string& input) {
 #if defined(PANACHE_SECCOMP) && !defined(PANACHE_SANITIZED)
   const pid_t watcher = ::fork();
   if (watcher == 0) {

@@ -159,14 +159,11 @@ class Packed : public ProgramTest {
   std::vector<std::string> results(const GltfParts& parts) {
     write("hero.glb", to_glb(parts));
     std::vector<std::string> out;
-    const Ran info = run({"info", "hero.glb", "--json"});
-    EXPECT_EQ(info.exit, 0) << info.err;
+    const Ran info = must("info hero.glb --json");
     out.push_back(info.out);
-    const Ran convert = run({"convert", "hero.glb", "--clip", "Walk", "--force", "-o", "a.bvh"});
-    EXPECT_EQ(convert.exit, 0) << convert.err;
+    const Ran convert = must("convert hero.glb --clip Walk --force -o a.bvh");
     out.push_back(read("a.bvh"));
-    const Ran stylize = run({"stylize", "hero.glb", "--style", "old=1", "--force", "-o", "a.glb"});
-    EXPECT_EQ(stylize.exit, 0) << stylize.err;
+    const Ran stylize = must("stylize hero.glb --style old=1 --force -o a.glb");
     out.push_back(read("a.glb"));
     return out;
   }
@@ -235,11 +232,10 @@ TEST_F(Packed, what_is_wrong_is_rejected_with_its_place) {
     GltfParts bad = good.packed;
     bad.json["bufferViews"][view]["extensions"][kExtension][key] = value;
     write("bad.glb", to_glb(bad));
-    const Ran ran = run({"info", "bad.glb"});
+    const Ran ran = run("info bad.glb");
     EXPECT_EQ(ran.exit, 1) << key << value;
-    EXPECT_TRUE(ran.err.starts_with("panache: bad.glb: bufferViews[" + std::to_string(view) +
-                                    "].extensions.EXT_meshopt_compression"))
-        << ran.err;
+    EXPECT_TRUE(begins(ran.err, "panache: bad.glb: bufferViews[" + std::to_string(view) +
+                                    "].extensions.EXT_meshopt_compression"));
   }
 }
 

@@ -3,54 +3,48 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "clip/motion_file.h"
 
 namespace panache::test {
 namespace {
 
 using Program = ProgramTest;
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST_F(Program, every_verb_has_help_with_an_example) {
   for (const std::string verb :
        {"stylize", "learn", "retarget", "convert", "info", "styles", "walker", "live", "view"}) {
     const Ran ran = run({verb, "--help"});
     EXPECT_EQ(ran.exit, 0) << verb;
-    EXPECT_TRUE(contains(ran.out, "Example")) << verb << "\n" << ran.out;
+    EXPECT_TRUE(holds(ran.out, "Example")) << verb << "\n" << ran.out;
     EXPECT_EQ(ran.err, "");
-    EXPECT_TRUE(contains(run({"--help"}).out, "\n  " + verb)) << verb;
+    EXPECT_TRUE(holds(run("--help").out, "\n  " + verb)) << verb;
   }
-  EXPECT_EQ(run({"help", "live", "send"}).out, run({"live", "send", "--help"}).out);
-  EXPECT_TRUE(contains(run({"live", "send", "--help"}).out, "\n  panache live send walk.bvh"));
+  EXPECT_EQ(run("help live send").out, run("live send --help").out);
+  EXPECT_TRUE(holds(run("live send --help").out, "\n  panache live send walk.bvh"));
 }
 
 TEST_F(Program, help_is_a_verb_too) {
-  EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
-  EXPECT_EQ(run({"help", "stylize"}).out, run({"stylize", "--help"}).out);
-  EXPECT_EQ(run({"help", "stylize"}).exit, 0);
-  const Ran unknown = run({"help", "stilyze"});
+  EXPECT_EQ(run("help").out, run("--help").out);
+  EXPECT_EQ(run("help stylize").out, run("stylize --help").out);
+  must("help stylize");
+  const Ran unknown = run("help stilyze");
   EXPECT_EQ(unknown.exit, 2);
-  EXPECT_TRUE(unknown.err.starts_with("panache: there is no command 'stilyze'; the nearest is "))
-      << unknown.err;
+  EXPECT_TRUE(begins(unknown.err, "panache: there is no command 'stilyze'; the nearest is "));
 }
 
 TEST_F(Program, it_tells_its_version) {
-  const Ran ran = run({"--version"});
-  EXPECT_EQ(ran.exit, 0);
-  EXPECT_TRUE(ran.out.starts_with("panache 0.")) << ran.out;
+  const Ran ran = must("--version");
+  EXPECT_TRUE(begins(ran.out, "panache 0."));
 }
 
 TEST_F(Program, styles_lists_names_and_what_they_look_like) {
-  const Ran ran = run({"styles"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_TRUE(contains(ran.out, "  angry  looks angry\n  old    looks old\n")) << ran.out;
-  EXPECT_TRUE(contains(ran.out, "data licence CC0\n")) << ran.out;
+  const Ran ran = must("styles");
+  EXPECT_TRUE(holds(ran.out, "  angry  looks angry\n  old    looks old\n"));
+  EXPECT_TRUE(holds(ran.out, "data licence CC0\n"));
 }
 
 TEST_F(Program, styles_tells_machines) {
-  const auto model = nlohmann::json::parse(run({"styles", "model.safetensors", "--json"}).out);
+  const auto model = nlohmann::json::parse(run("styles model.safetensors --json").out);
   EXPECT_EQ(model["recipe"], "panache");
   EXPECT_EQ(model["licence"], "CC0");
   EXPECT_EQ(model["bytes"], read("model.safetensors").size());
@@ -65,18 +59,17 @@ TEST_F(Program, styles_tells_machines) {
 }
 
 TEST_F(Program, info_shows_all_that_a_model_says_of_itself) {
-  const Ran ran = run({"info", "model.safetensors"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_TRUE(contains(ran.out, "4 styles:\n")) << ran.out;
-  EXPECT_TRUE(contains(ran.out, "  window          6 poses 0.05 s apart\n")) << ran.out;
-  const auto model = nlohmann::json::parse(run({"info", "model.safetensors", "--json"}).out);
+  const Ran ran = must("info model.safetensors");
+  EXPECT_TRUE(holds(ran.out, "4 styles:\n"));
+  EXPECT_TRUE(holds(ran.out, "  window          6 poses 0.05 s apart\n"));
+  const auto model = nlohmann::json::parse(run("info model.safetensors --json").out);
   EXPECT_EQ(model["metadata"]["format_version"], "1");
 }
 
 TEST_F(Program, the_shipped_model_is_found_where_the_program_is) {
   std::filesystem::create_directories(path("prefix/bin"));
   std::filesystem::copy_file(PANACHE_PROGRAM, path("prefix/bin/panache"));
-  const auto styles = [&] { return run({"styles"}, "", path("prefix/bin/panache")); };
+  const auto styles = [&] { return run("styles", "", path("prefix/bin/panache")); };
   const Ran none = styles();
   EXPECT_EQ(none.exit, 1);
   EXPECT_EQ(none.out, "");
@@ -96,17 +89,154 @@ TEST_F(Program, the_shipped_model_is_found_where_the_program_is) {
     write(folder + "panache-int8.safetensors", read("model.safetensors"));
     const Ran found = styles();
     EXPECT_EQ(found.exit, 0) << found.err;
-    EXPECT_TRUE(found.out.starts_with(path(folder) + "panache-int8.safetensors\n")) << found.out;
+    EXPECT_TRUE(begins(found.out, path(folder) + "panache-int8.safetensors\n"));
   }
 }
 
 TEST_F(Program, names_that_are_no_utf8_do_not_stop_the_machine_output) {
   const std::string name = "w\xe4lk.bvh";
   write_walk(name);
-  const Ran ran = run({"stylize", name, "--style", "old=1", "--json", "-o", "out/"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const Ran ran = must({"stylize", name, "--style", "old=1", "--json", "-o", "out/"});
   EXPECT_EQ(nlohmann::json::parse(ran.out)[0]["ok"], true);
   EXPECT_TRUE(exists("out/" + name));
+}
+
+// "-": motion through stdin and stdout.
+
+class Streams : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_walk("walk.bvh");
+    must("stylize walk.bvh --style old=1 -o old.bvh");
+  }
+};
+
+TEST_F(Streams, a_pipe_gives_what_files_give) {
+  for (const bool named : {false, true}) {
+    Words arguments = "stylize - --style old=1";
+    if (named) arguments.insert(arguments.end(), {"-o", "-"});
+    const Ran ran = run_on("walk.bvh", arguments);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_EQ(ran.out, read("old.bvh"));
+    EXPECT_TRUE(begins(ran.err, "restyled stdin.bvh into stdout.bvh ("));
+  }
+  EXPECT_EQ(entries(), (std::vector<std::string>{"model.safetensors", "old.bvh", "walk.bvh"}));
+}
+
+TEST_F(Streams, each_end_may_be_a_file) {
+  ASSERT_EQ(run_on("walk.bvh", "stylize - --style old=1 -o in.bvh").exit, 0);
+  EXPECT_EQ(read("in.bvh"), read("old.bvh"));
+  const Ran out = run("stylize walk.bvh --style old=1 -o - --quiet");
+  EXPECT_EQ(out.out, read("old.bvh"));
+  EXPECT_EQ(out.err, "");
+}
+
+TEST_F(Streams, formats_are_told_by_content) {
+  const Ran glb = run_on("walk.bvh", "convert - --to glb");
+  EXPECT_EQ(glb.exit, 0) << glb.err;
+  EXPECT_TRUE(begins(glb.out, "glTF"));
+  write("walk.glb", glb.out);
+  const Ran styled = run_on("walk.glb", "stylize - --style old=1");
+  EXPECT_EQ(styled.exit, 0) << styled.err;
+  must("stylize walk.glb --style old=1 -o old.glb");
+  // But for the name of the motion, which is that of the file where it has none of its own.
+  EXPECT_EQ(styled.out.size(), read("old.glb").size());
+  EXPECT_TRUE(run_on("walk.glb", "convert - -o - --to bvh").out.starts_with("HIERARCHY"));
+}
+
+TEST_F(Streams, the_walker_walks_into_a_pipe) {
+  const Ran ran = must("walker --seconds 1 -o -");
+  EXPECT_TRUE(begins(ran.out, "HIERARCHY"));
+  EXPECT_EQ(ran.err, "");
+}
+
+TEST_F(Streams, output_that_is_lost_is_an_error) {
+  const std::string full = "panache: stdout: cannot be written: No space left on device\n";
+  for (const std::string verb :
+       {"info walk.bvh", "info walk.bvh --json", "styles", "styles --json", "--version",
+        "help info", "convert walk.bvh -o a.glb --force --json",
+        "convert walk.bvh -o a.glb --force", "stylize walk.bvh --style old=1 --dry-run"}) {
+    const Ran ran =
+        run({"-c", PANACHE_PROGRAM " " + verb + " >/dev/full"}, "model.safetensors", "/bin/sh");
+    EXPECT_EQ(ran.exit, 1) << verb;
+    EXPECT_EQ(ran.err, full) << verb;
+  }
+  const Ran motion =
+      run({"-c", PANACHE_PROGRAM " stylize walk.bvh --style old=1 -o - --quiet >/dev/full"},
+          "model.safetensors", "/bin/sh");
+  EXPECT_EQ(motion.exit, 1);
+  EXPECT_EQ(motion.err, full);  // Once.
+  // A reader that leaves is no failure to tell of, also where its signal is ignored.
+  for (const std::string ignored : {"", "trap '' PIPE; "}) {
+    const Ran head = run({"-c", ignored + "(sleep 0.1; " PANACHE_PROGRAM " styles) | true"},
+                         "model.safetensors", "/bin/sh");
+    EXPECT_EQ(head.err, "");
+  }
+}
+
+TEST_F(Streams, what_cannot_be_is_rejected) {
+  const auto expect_rejected = [&](const std::string& input, Words arguments,
+                                   const std::string& message) {
+    arguments.insert(arguments.begin(), {"stylize", "-", "--style", "old=1"});
+    const Ran ran = run_on(input, arguments);
+    EXPECT_EQ(ran.exit, 2);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
+  };
+  write("empty", "");
+  write("text", "a text");
+  expect_rejected("empty", {}, "stdin: is empty; expected a motion file");
+  expect_rejected("text", {},
+                  "stdin: expected a BVH, glTF, GLB, VRM, VRMA or NPZ file, found something else");
+  expect_rejected("walk.bvh", {"walk.bvh"},
+                  "- (standard input) cannot be combined with other inputs; found 2 inputs");
+  expect_rejected("walk.bvh", {"--json"},
+                  "--json: stdout takes the motion; --report FILE writes the same");
+  write("bad.bvh", "HIERARCHY\n");
+  const Ran bad = run_on("bad.bvh", "stylize - --style old=1");
+  EXPECT_EQ(bad.exit, 1);
+  EXPECT_TRUE(begins(bad.err, "panache: stdin.bvh:"));
+}
+
+// panache walker: sample input on any machine.
+
+using WalkerVerb = ProgramTest;
+
+TEST_F(WalkerVerb, makes_a_walk_that_stylize_takes) {
+  const Ran ran = must("walker -o walk.bvh --seconds 2 --fps 30");
+  EXPECT_EQ(ran.out, "walked 2.0 s (60 frames) into walk.bvh\n");
+  const auto file = read_motion(path("walk.bvh"));
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_EQ((*file)->clip().frames, 60);
+  // 1.4 m/s for 59 frame times, to a tenth: the body sways.
+  const Vec3 begin = (*file)->clip().pose(0).translations[0];
+  const Vec3 end = (*file)->clip().pose(59).translations[0];
+  EXPECT_NEAR(length(end - begin), 1.4f * 59 / 30, 0.1f * 1.4f * 59 / 30);
+  must("stylize walk.bvh --style old=1 -o old.bvh");
+}
+
+TEST_F(WalkerVerb, explains_a_wrong_wish) {
+  expect_rejected("walker -o walk.bvh --speed 9", 2,
+                  "--speed: expected a number from 0 to 4.5, found 9");
+  expect_rejected("walker -o walk.bvh --speed nan", 2,
+                  "--speed: expected a number from 0 to 4.5, found nan");
+  expect_rejected("walker -o walk.bvh --seconds 0", 2,
+                  "--seconds: expected a number from 0.1 to 600, found 0");
+  expect_rejected("walker -o walk.bvh --fps 1000", 2,
+                  "--fps: expected a number from 10 to 240, found 1000");
+  expect_rejected("walker -o walk.bvh --turn -500", 2,
+                  "--turn: expected a number from -120 to 120, found -500 at --speed 1.4");
+  expect_rejected("walker -o walk.fbx", 2, "walk.fbx: expected a name that ends in .bvh");
+  expect_rejected("walker -o walk.bvh --model none.safetensors", 1,
+                  "none.safetensors: cannot be read: No such file or directory");
+  EXPECT_FALSE(exists("walk.bvh"));
+}
+
+TEST_F(WalkerVerb, keeps_an_existing_file_without_force) {
+  write("walk.bvh", "mine");
+  expect_rejected("walker -o walk.bvh", 1, "walk.bvh: exists already; --force overwrites it");
+  EXPECT_EQ(read("walk.bvh"), "mine");
 }
 
 }  // namespace

@@ -17,18 +17,12 @@ class RemovalOptions : public ProgramTest {
     remover.metadata[kDirection] = kRemove;
     write("remover.safetensors", format_safetensors(remover));
   }
-  std::string made(std::vector<std::string> more, const std::string& in = "walk.bvh") {
-    std::vector<std::string> arguments = {"stylize", in,   "--remover", "remover.safetensors",
-                                          "--force", "-o", "out.bvh"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.exit, 0) << ran.err;
+  std::string made(const Words& more) {
+    must("stylize walk.bvh --remover remover.safetensors --force -o out.bvh" + more);
     return read("out.bvh");
   }
-  std::string rejection(std::vector<std::string> more, int exit = 2) {
-    std::vector<std::string> arguments = {"stylize", "walk.bvh", "-o", "no.bvh"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Ran ran = run(arguments);
+  std::string rejection(const Words& more, int exit = 2) {
+    const Ran ran = run("stylize walk.bvh -o no.bvh" + more);
     EXPECT_EQ(ran.exit, exit);
     EXPECT_FALSE(exists("no.bvh"));
     return ran.err;
@@ -36,13 +30,12 @@ class RemovalOptions : public ProgramTest {
 };
 
 TEST_F(RemovalOptions, a_style_is_taken_off_before_another_is_put_on) {
-  const std::string off = made({"--remove", "old"});
+  const std::string off = made("--remove old");
   EXPECT_NE(off, read("walk.bvh"));
-  EXPECT_NE(off, made({"--neutral"}));
-  const std::string both = made({"--remove", "old", "--style", "proud=1"});
+  EXPECT_NE(off, made("--neutral"));
+  const std::string both = made("--remove old --style proud=1");
   write("off.bvh", off);
-  const Ran ran = run({"stylize", "off.bvh", "--style", "proud=1", "-o", "twice.bvh"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
+  must("stylize off.bvh --style proud=1 -o twice.bvh");
   EXPECT_NE(both, off);
   EXPECT_EQ(both.substr(0, both.find("Frame Time")),
             read("twice.bvh").substr(0, read("twice.bvh").find("Frame Time")));
@@ -62,27 +55,25 @@ TEST_F(RemovalOptions, with_timing_off_the_tempo_of_what_is_taken_off_stays) {
 }
 
 TEST_F(RemovalOptions, without_a_style_no_name_is_missing_and_the_result_is_called_neutral) {
-  const Ran ran = run({"stylize", "walk.bvh", "--neutral", "--remover", "remover.safetensors"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
+  must("stylize walk.bvh --neutral --remover remover.safetensors");
   EXPECT_TRUE(exists("walk-neutral.bvh"));
 }
 
 TEST_F(RemovalOptions, the_report_names_what_was_removed) {
-  const Ran ran = run({"stylize", "walk.bvh", "--remove", "OLD", "--remover", "remover.safetensors",
-                       "--json", "-o", "out.bvh"});
-  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Ran ran =
+      must("stylize walk.bvh --remove OLD --remover remover.safetensors --json -o out.bvh");
   const auto clip = nlohmann::json::parse(ran.out)[0]["clips"][0];
   EXPECT_EQ(clip["removed"], "old");
   EXPECT_TRUE(clip["result"].get<std::string>().ends_with("(old off)")) << clip;
 }
 
 TEST_F(RemovalOptions, what_does_not_fit_is_rejected) {
-  EXPECT_EQ(rejection({"--remove", "odl", "--remover", "remover.safetensors"}),
+  EXPECT_EQ(rejection("--remove odl --remover remover.safetensors"),
             "panache: --remove: unknown style 'odl'; the nearest is old\n");
-  EXPECT_NE(rejection({"--remove", "old", "--neutral"}).find("--neutral"), std::string::npos);
-  EXPECT_EQ(rejection({"--style", "old=1", "--remover", "remover.safetensors"}),
+  EXPECT_TRUE(holds(rejection("--remove old --neutral"), "--neutral"));
+  EXPECT_EQ(rejection("--style old=1 --remover remover.safetensors"),
             "panache: --remover: nothing is to be taken off; add --remove STYLE or --neutral\n");
-  EXPECT_EQ(rejection({"--remove", "old", "--remover", "model.safetensors"}, 1),
+  EXPECT_EQ(rejection("--remove old --remover model.safetensors", 1),
             "panache: model.safetensors: puts styles on; expected a model that takes them off\n");
 }
 
@@ -95,7 +86,7 @@ TEST_F(RemovalOptions, a_batch_with_another_removal_is_not_taken_for_done) {
   EXPECT_EQ(batch("old").exit, 0);
   const Ran other = batch("angry");
   EXPECT_NE(other.exit, 0);
-  EXPECT_NE(other.err.find("--remove"), std::string::npos) << other.err;
+  EXPECT_TRUE(holds(other.err, "--remove"));
 }
 
 TEST_F(RemovalOptions, a_batch_with_another_shipped_remover_is_not_taken_for_done) {
@@ -105,28 +96,26 @@ TEST_F(RemovalOptions, a_batch_with_another_shipped_remover_is_not_taken_for_don
     TensorFile remover = make_model({"old", kAnyStyle}, seed);
     remover.metadata[kDirection] = kRemove;
     write("models/remover-int8.safetensors", format_safetensors(remover));
-    return run({"stylize", "walk.bvh", "--neutral", "-o", "out/", "--skip-existing", "--report",
-                "report.jsonl"},
+    return run("stylize walk.bvh --neutral -o out/ --skip-existing --report report.jsonl",
                "model.safetensors", path("panache"));
   };
   ASSERT_EQ(batch(7).exit, 0);
   EXPECT_EQ(batch(7).exit, 0);
   const Ran other = batch(8);
   EXPECT_NE(other.exit, 0);
-  EXPECT_NE(other.err.find("--remover"), std::string::npos) << other.err;
+  EXPECT_TRUE(holds(other.err, "--remover"));
 }
 
 TEST_F(RemovalOptions, info_tells_the_styles_of_a_motion) {
-  const Ran ran = run({"info", "walk.bvh", "--styles", "--json"});
-  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Ran ran = must("info walk.bvh --styles --json");
   const auto styles = nlohmann::json::parse(ran.out)["styles"];
   ASSERT_FALSE(styles.empty());
   double sum = 0;
   for (const auto& style : styles) sum += style["share"].get<double>();
   EXPECT_GT(sum, 0.6);
   EXPECT_LE(sum, 1.001);
-  EXPECT_NE(run({"info", "walk.bvh", "--styles"}).out.find("  styles  "), std::string::npos);
-  EXPECT_EQ(run({"info", "walk.bvh"}).out.find("  styles  "), std::string::npos);
+  EXPECT_TRUE(holds(run("info walk.bvh --styles").out, "  styles  "));
+  EXPECT_FALSE(holds(run("info walk.bvh").out, "  styles  "));
 }
 
 }  // namespace

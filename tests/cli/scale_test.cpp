@@ -96,10 +96,6 @@ class Scales : public ProgramTest {
     write("plain.glb", to_glb(character()));
     write_walk("walk.bvh");
   }
-  void must(const std::vector<std::string>& arguments) {
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.exit, 0) << ran.err;
-  }
   // How far the nodes of a file are from those of plain.glb after the same was done to both.
   void expect_alike(const std::string& plain, const std::string& other, size_t animation,
                     const char* what, double tolerance) {
@@ -126,41 +122,40 @@ class Scales : public ProgramTest {
 constexpr double kSameInput = 10 * 2.5 * 13 * 4 * 0x1p-23;
 
 TEST_F(Scales, a_style_is_the_plain_characters) {
-  must({"stylize", "plain.glb", "--style", "old=1", "--clip", "Walk", "-o", "plain-old.glb"});
+  must("stylize plain.glb --style old=1 --clip Walk -o plain-old.glb");
   for (const Variant& variant : kVariants) {
     GltfParts parts = character();
     variant.rewrite(parts);
     write("other.glb", to_glb(parts));
-    must({"stylize", "other.glb", "--style", "old=1", "--clip", "Walk", "--force", "-o",
-          "other-old.glb"});
+    must("stylize other.glb --style old=1 --clip Walk --force -o other-old.glb");
     expect_alike("plain-old.glb", "other-old.glb", 0, variant.name, kSameInput);
-    must({"stylize", "other.glb", "--style", "old=0", "--replace", "--force", "-o", "same.glb"});
+    must("stylize other.glb --style old=0 --replace --force -o same.glb");
     EXPECT_EQ(glb_parts(read("same.glb")).bin, parts.bin) << variant.name;
   }
 }
 
 TEST_F(Scales, motion_of_others_is_put_on_it_as_on_the_plain_one) {
-  must({"retarget", "walk.bvh", "--onto", "plain.glb", "-o", "plain-walk.glb"});
+  must("retarget walk.bvh --onto plain.glb -o plain-walk.glb");
   for (const Variant& variant : kVariants) {
     // What only the keys of the file's own motions say is not there in a new one.
     if (std::string(variant.name) == "mirrored by keys") continue;
     GltfParts parts = character();
     variant.rewrite(parts);
     write("other.glb", to_glb(parts));
-    must({"retarget", "walk.bvh", "--onto", "other.glb", "--force", "-o", "other-walk.glb"});
+    must("retarget walk.bvh --onto other.glb --force -o other-walk.glb");
     expect_alike("plain-walk.glb", "other-walk.glb", 0, variant.name, kSameInput);
   }
 }
 
 TEST_F(Scales, other_formats_hold_the_same_motion) {
-  must({"convert", "plain.glb", "--clip", "Walk", "-o", "plain.bvh"});
+  must("convert plain.glb --clip Walk -o plain.bvh");
   const Result<std::unique_ptr<MotionFile>> plain = read_motion(path("plain.bvh"));
   ASSERT_TRUE(plain.ok());
   for (const Variant& variant : kVariants) {
     GltfParts parts = character();
     variant.rewrite(parts);
     write("other.glb", to_glb(parts));
-    must({"convert", "other.glb", "--clip", "Walk", "--force", "-o", "other.bvh"});
+    must("convert other.glb --clip Walk --force -o other.bvh");
     const Result<std::unique_ptr<MotionFile>> other = read_motion(path("other.bvh"));
     ASSERT_TRUE(other.ok()) << variant.name;
     // Angles in BVH have six decimals of a degree.

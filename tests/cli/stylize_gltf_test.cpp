@@ -18,40 +18,31 @@ class StylizeGltf : public ProgramTest {
     write("hero.glb", to_glb(character()));
     write_walk("walk.bvh");
   }
-  Ran stylize(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "stylize");
-    return run(arguments);
-  }
-  std::unique_ptr<MotionFile> styled(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--force"});
-    const std::string name = *(std::find(arguments.begin(), arguments.end(), "-o") + 1);
-    const Ran ran = stylize(std::move(arguments));
-    EXPECT_EQ(ran.exit, 0) << ran.err;
-    Result<std::unique_ptr<MotionFile>> file = read_motion(path(name));
-    EXPECT_TRUE(file.ok()) << file.error().message;
-    return file ? *std::move(file) : nullptr;
+  Ran stylize(const Words& arguments) { return run("stylize" + arguments); }
+  std::unique_ptr<MotionFile> styled(const Words& arguments) {
+    must("stylize --force" + arguments);
+    return open(*(std::find(arguments.begin(), arguments.end(), "-o") + 1));
   }
   using Names = std::vector<std::string>;
 };
 
 TEST_F(StylizeGltf, new_motions_stand_beside_the_old) {
-  const auto file = styled({"hero.glb", "--style", "old=1", "-o", "out.glb"});
+  const auto file = styled("hero.glb --style old=1 -o out.glb");
   ASSERT_TRUE(file);
   EXPECT_EQ(file->clip_names(), (Names{"Walk (old 1)", "Wave (old 1)", "Walk", "Wave"}));
 }
 
 TEST_F(StylizeGltf, a_name_tells_styles_and_strengths) {
   write("table.csv", "seconds,sad\n0,0\n0.5,1\n");
-  const auto file = styled({"hero.glb", "--clip", "Walk", "--style", "old=0.5", "--style",
-                            "proud=0..1", "--strengths", "table.csv", "-o", "out.glb"});
+  const auto file = styled(
+      "hero.glb --clip Walk --style old=0.5 --style proud=0..1 --strengths table.csv -o out.glb");
   ASSERT_TRUE(file);
   EXPECT_EQ(file->clip_names(), (Names{"Walk (old 0.5, proud 0..1, sad varies)", "Walk", "Wave"}));
 }
 
 TEST_F(StylizeGltf, new_motions_take_the_place_of_the_old_when_asked) {
   const auto before = read_motion(path("hero.glb"));
-  const auto file =
-      styled({"hero.glb", "--replace", "--clip", "Wave", "--style", "old=1", "-o", "out.glb"});
+  const auto file = styled("hero.glb --replace --clip Wave --style old=1 -o out.glb");
   ASSERT_TRUE(before.ok() && file);
   EXPECT_EQ(file->clip_names(), (Names{"Walk", "Wave"}));
   expect_same_positions((*before)->clip(0), file->clip(0), 0);
@@ -60,18 +51,18 @@ TEST_F(StylizeGltf, new_motions_take_the_place_of_the_old_when_asked) {
 
 TEST_F(StylizeGltf, one_motion_goes_into_a_bvh) {
   EXPECT_EQ(
-      stylize({"hero.glb", "--style", "old=1", "-o", "out.bvh"}).err,
+      stylize("hero.glb --style old=1 -o out.bvh").err,
       "panache: hero.glb: holds 2 motions ('Walk', 'Wave') and out.bvh takes one; --clip NAME "
       "picks it\n");
-  const auto glb = styled({"hero.glb", "--clip", "Walk", "--style", "old=1", "-o", "out.glb"});
-  const auto bvh = styled({"hero.glb", "--clip", "Walk", "--style", "old=1", "-o", "out.bvh"});
+  const auto glb = styled("hero.glb --clip Walk --style old=1 -o out.glb");
+  const auto bvh = styled("hero.glb --clip Walk --style old=1 -o out.bvh");
   ASSERT_TRUE(glb && bvh);
   expect_same_positions(glb->clip(0), bvh->clip(), 2e-5f);
 }
 
 TEST_F(StylizeGltf, a_bvh_goes_into_a_glb) {
-  const auto bvh = styled({"walk.bvh", "--style", "old=1", "-o", "out.bvh"});
-  const auto glb = styled({"walk.bvh", "--style", "old=1", "-o", "out.glb"});
+  const auto bvh = styled("walk.bvh --style old=1 -o out.bvh");
+  const auto glb = styled("walk.bvh --style old=1 -o out.glb");
   ASSERT_TRUE(bvh && glb);
   EXPECT_EQ(glb->clip_names(), Names{"walk (old 1)"});
   // The body's legs are those of the canonical one, whose unit is the metre, to rounding.
@@ -80,7 +71,7 @@ TEST_F(StylizeGltf, a_bvh_goes_into_a_glb) {
 
 TEST_F(StylizeGltf, a_gltf_goes_into_a_glb_with_all_it_holds) {
   write("hero.gltf", to_gltf_text(character()));
-  const auto file = styled({"hero.gltf", "--style", "old=1", "-o", "out.glb"});
+  const auto file = styled("hero.gltf --style old=1 -o out.glb");
   ASSERT_TRUE(file);
   EXPECT_EQ(file->clip_names().size(), 4u);
   EXPECT_EQ(glb_parts(read("out.glb")).json["meshes"], character().json["meshes"]);
@@ -110,12 +101,12 @@ TEST_F(StylizeGltf, a_file_that_one_motion_shows_to_be_no_humanoid_is_rejected_a
   }
   const ClipEdit edit = {kNewClip, &beside, {}, "Bark"};
   write("beast.glb", (*file)->encode({&edit, 1}, EditMode::add_beside));
-  const Ran ran = stylize({"beast.glb", "--style", "old=1", "-o", "out.glb"});
+  const Ran ran = stylize("beast.glb --style old=1 -o out.glb");
   EXPECT_EQ(ran.exit, 1) << ran.err;
-  EXPECT_TRUE(ran.err.starts_with("panache: beast.glb: Bark: no humanoid found: ")) << ran.err;
+  EXPECT_TRUE(begins(ran.err, "panache: beast.glb: Bark: no humanoid found: "));
   EXPECT_TRUE(ran.err.ends_with("; so its other motions are not restyled either\n")) << ran.err;
   EXPECT_FALSE(exists("out.glb"));
-  EXPECT_EQ(stylize({"beast.glb", "--clip", "Run", "--style", "old=1", "-o", "out.glb"}).exit, 0);
+  EXPECT_EQ(stylize("beast.glb --clip Run --style old=1 -o out.glb").exit, 0);
 }
 
 TEST_F(StylizeGltf, a_motion_that_cannot_be_restyled_stays_with_a_note) {
@@ -130,13 +121,13 @@ TEST_F(StylizeGltf, a_motion_that_cannot_be_restyled_stays_with_a_note) {
   }
   write("legless.glb", to_glb(parts));
   const std::string message = "panache: legless.glb: Wave: the legs of the humanoid have no length";
-  const Ran both = stylize({"legless.glb", "--style", "old=1", "-o", "out.glb"});
+  const Ran both = stylize("legless.glb --style old=1 -o out.glb");
   EXPECT_EQ(both.exit, 0);
   EXPECT_EQ(both.err, message + "; this motion is left unchanged\n");
   const auto file = read_motion(path("out.glb"));
   ASSERT_TRUE(file.ok());
   EXPECT_EQ((*file)->clip_names(), (Names{"Walk (old 1)", "Walk", "Wave"}));
-  const Ran one = stylize({"legless.glb", "--clip", "Wave", "--style", "old=1", "-o", "no.glb"});
+  const Ran one = stylize("legless.glb --clip Wave --style old=1 -o no.glb");
   EXPECT_EQ(one.exit, 1);
   EXPECT_EQ(one.err, message + "\n");
   EXPECT_FALSE(exists("no.glb"));
@@ -146,30 +137,24 @@ TEST_F(StylizeGltf, a_skeleton_without_motion_is_rejected) {
   GltfParts parts = character();
   parts.json.erase("animations");
   write("still.glb", to_glb(parts));
-  const Ran ran = stylize({"still.glb", "--style", "old=1", "-o", "out.glb"});
+  const Ran ran = stylize("still.glb --style old=1 -o out.glb");
   EXPECT_EQ(ran.exit, 1);
   EXPECT_EQ(ran.err,
             "panache: still.glb: holds a skeleton and no motion; expected a file with an "
             "animation\n");
-  const Ran info = run({"info", "still.glb"});
-  EXPECT_EQ(info.exit, 0) << info.err;
-  EXPECT_NE(info.out.find("  motion  none: the following describes the rest pose\n"),
-            std::string::npos)
-      << info.out;
+  const Ran info = must("info still.glb");
+  EXPECT_TRUE(holds(info.out, "  motion  none: the following describes the rest pose\n"));
 }
 
 TEST_F(StylizeGltf, info_lists_the_motions) {
-  const Ran ran = run({"info", "hero.glb", "--clip", "Wave"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.out.find("  motion  Walk  31 frames at 30 a second: 1.03 s, a loop\n"),
-            std::string::npos)
-      << ran.out;
-  EXPECT_NE(ran.out.find("\n  motion  Wave  "), std::string::npos) << ran.out;
-  EXPECT_NE(ran.out.find(" (shown below)\n"), std::string::npos) << ran.out;
+  const Ran ran = must("info hero.glb --clip Wave");
+  EXPECT_TRUE(holds(ran.out, "  motion  Walk  31 frames at 30 a second: 1.03 s, a loop\n"));
+  EXPECT_TRUE(holds(ran.out, "\n  motion  Wave  "));
+  EXPECT_TRUE(holds(ran.out, " (shown below)\n"));
 }
 
 TEST_F(StylizeGltf, the_machine_hears_of_every_motion) {
-  const Ran ran = stylize({"hero.glb", "--style", "old=1", "--json", "-o", "out.glb"});
+  const Ran ran = stylize("hero.glb --style old=1 --json -o out.glb");
   EXPECT_EQ(ran.exit, 0) << ran.err;
   const auto file = nlohmann::json::parse(ran.out)[0];
   ASSERT_EQ(file["clips"].size(), 2u);

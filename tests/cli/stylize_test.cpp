@@ -57,17 +57,15 @@ int frames_of(const std::string& bvh) { return std::stoi(line_with(bvh, "Frames:
 
 TEST_F(Stylize, writes_the_input_again_at_strength_zero) {
   write_walk("walk.bvh");
-  const Ran ran = run({"stylize", "walk.bvh", "--style", "old=0", "-o", "same.bvh"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
+  must("stylize walk.bvh --style old=0 -o same.bvh");
   EXPECT_TRUE(read("same.bvh") == read("walk.bvh"));
 }
 
 TEST_F(Stylize, changes_the_motion_and_nothing_else) {
   write_walk("walk.bvh");
-  const Ran ran = run({"stylize", "walk.bvh", "--style", "old=1", "-o", "old.bvh"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const Ran ran = must("stylize walk.bvh --style old=1 -o old.bvh");
   EXPECT_EQ(ran.err, "");
-  EXPECT_TRUE(ran.out.starts_with("restyled walk.bvh into old.bvh (")) << ran.out;
+  EXPECT_TRUE(begins(ran.out, "restyled walk.bvh into old.bvh ("));
   const std::string before = read("walk.bvh"), after = read("old.bvh");
   EXPECT_TRUE(hierarchy(after) == hierarchy(before));
   EXPECT_EQ(line_with(after, "Frame Time"), line_with(before, "Frame Time"));
@@ -76,16 +74,14 @@ TEST_F(Stylize, changes_the_motion_and_nothing_else) {
 
 TEST_F(Stylize, keeps_the_number_of_frames_without_timing) {
   write_walk("walk.bvh");
-  const Ran timed = run({"stylize", "walk.bvh", "--style", "old=3", "-o", "timed.bvh"});
-  const Ran ran =
-      run({"stylize", "walk.bvh", "--style", "old=3", "--no-timing", "-o", "untimed.bvh"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const Ran timed = run("stylize walk.bvh --style old=3 -o timed.bvh");
+  must("stylize walk.bvh --style old=3 --no-timing -o untimed.bvh");
   EXPECT_EQ(frames_of(read("untimed.bvh")), 40);
   EXPECT_NE(frames_of(read("timed.bvh")), 40) << "the model does change the tempo";
 }
 
 TEST_F(Stylize, leaves_the_feet_alone_when_asked) {
-  ASSERT_EQ(run({"walker", "-o", "walk.bvh", "--seconds", "3"}).exit, 0);
+  must("walker -o walk.bvh --seconds 3");
   TensorFile model = make_model({"old"});
   // Both feet are planted, as this model sees it.
   model.tensors["contact.head.0.bias"] = constant_tensor(kFeet, 5);
@@ -94,8 +90,7 @@ TEST_F(Stylize, leaves_the_feet_alone_when_asked) {
     std::vector<std::string> arguments = {"stylize",     "walk.bvh", "--style", "old=1",
                                           "--no-timing", "-o",       name};
     if (name == "free.bvh") arguments.push_back("--no-feet");
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.exit, 0) << ran.err;
+    must(arguments);
   }
   // Feet that are held creep towards this style by two centimetres a second, and those that are not
   // go with it.
@@ -106,9 +101,8 @@ TEST_F(Stylize, leaves_the_feet_alone_when_asked) {
 
 TEST_F(Stylize, changes_strength_along_the_clip) {
   write_walk("walk.bvh");
-  const Ran ran = run({"stylize", "walk.bvh", "--style", "old=0..1", "--style", "sad=2..-1",
-                       "--no-timing", "--json", "-o", "out.bvh"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const Ran ran =
+      must("stylize walk.bvh --style old=0..1 --style sad=2..-1 --no-timing --json -o out.bvh");
   const auto styles = nlohmann::json::parse(ran.out)[0]["clips"][0]["styles"];
   ASSERT_EQ(styles.size(), 2u);
   EXPECT_EQ(styles[0]["name"], "old");
@@ -123,30 +117,27 @@ TEST_F(Stylize, changes_strength_along_the_clip) {
 TEST_F(Stylize, reads_strengths_from_a_table_like_the_command_line) {
   write_walk("walk.bvh");
   write("table.csv", "seconds, old,proud\r\n0,1,0.5\r\n\r\n1.3, 1 ,0.5\r\n");
-  const Ran ran = run({"stylize", "walk.bvh", "--strengths", "table.csv", "-o", "a.bvh"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  run({"stylize", "walk.bvh", "--style", "old=1", "--style", "proud=.5", "-o", "b.bvh"});
+  must("stylize walk.bvh --strengths table.csv -o a.bvh");
+  run("stylize walk.bvh --style old=1 --style proud=.5 -o b.bvh");
   EXPECT_TRUE(read("a.bvh") == read("b.bvh"));
 }
 
 TEST_F(Stylize, keeps_names_in_a_folder_that_it_makes) {
   write_walk("a.bvh");
   write_walk("b.bvh");
-  const Ran ran = run({"stylize", "a.bvh", "b.bvh", "--style", "sad=1", "-o", "made/here"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_TRUE(ran.out.starts_with("restyled 2 of 2 files in ")) << ran.out;
+  const Ran ran = must("stylize a.bvh b.bvh --style sad=1 -o made/here");
+  EXPECT_TRUE(begins(ran.out, "restyled 2 of 2 files in "));
   EXPECT_EQ(entries("made/here"), (std::vector<std::string>{"a.bvh", "b.bvh"}));
 }
 
 TEST_F(Stylize, takes_files_after_a_style_and_one_file_into_a_folder) {
   write_walk("a.bvh");
-  const Ran ran = run({"stylize", "-o", "out/", "--style", "sad=1", "a.bvh"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
+  must("stylize -o out/ --style sad=1 a.bvh");
   EXPECT_EQ(entries("out"), std::vector<std::string>{"a.bvh"});
 }
 
 TEST_F(Stylize, gives_the_same_files_however_many_at_once) {
-  std::vector<std::string> arguments = {"stylize", "--style", "proud=1", "--jobs"};
+  Words arguments = "stylize --style proud=1 --jobs";
   std::vector<std::string> one = arguments, many = arguments;
   one.insert(one.end(), {"1", "-o", "one/"});
   many.insert(many.end(), {"7", "-o", "many/"});
@@ -156,8 +147,8 @@ TEST_F(Stylize, gives_the_same_files_however_many_at_once) {
     one.push_back(name);
     many.push_back(name);
   }
-  EXPECT_EQ(run(one).exit, 0);
-  EXPECT_EQ(run(many).exit, 0);
+  must(one);
+  must(many);
   for (int i = 0; i < 9; ++i) {
     const std::string name = std::to_string(i) + ".bvh";
     EXPECT_TRUE(read("one/" + name) == read("many/" + name));
@@ -168,19 +159,18 @@ TEST_F(Stylize, reports_a_damaged_file_and_goes_on_with_the_rest) {
   write_walk("a.bvh");
   write_walk("c.bvh");
   write("b.bvh", read("a.bvh").substr(0, 600));
-  const Ran ran = run({"stylize", "a.bvh", "b.bvh", "c.bvh", "--style", "old=1", "-o", "out/"});
+  const Ran ran = run("stylize a.bvh b.bvh c.bvh --style old=1 -o out/");
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_TRUE(ran.err.starts_with("panache: b.bvh:")) << ran.err;
+  EXPECT_TRUE(begins(ran.err, "panache: b.bvh:"));
   EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
-  EXPECT_TRUE(ran.out.starts_with("restyled 2 of 3 files, 1 failed, in ")) << ran.out;
+  EXPECT_TRUE(begins(ran.out, "restyled 2 of 3 files, 1 failed, in "));
   EXPECT_EQ(entries("out"), (std::vector<std::string>{"a.bvh", "c.bvh"}));
 }
 
 TEST_F(Stylize, tells_machines_about_each_file) {
   write_walk("a.bvh");
   write("b.bvh", "");
-  const Ran ran =
-      run({"stylize", "a.bvh", "b.bvh", "--style", "old=1", "--no-timing", "--json", "-o", "out"});
+  const Ran ran = run("stylize a.bvh b.bvh --style old=1 --no-timing --json -o out");
   EXPECT_EQ(ran.exit, 1);
   const auto files = nlohmann::json::parse(ran.out);
   ASSERT_EQ(files.size(), 2u);
@@ -205,8 +195,7 @@ TEST_F(Stylize, tells_how_far_the_styles_know_the_motion_when_asked) {
   const auto summary = [](const Ran& ran) {
     return ran.out.substr(0, ran.out.find('\n', ran.out.find('\n') + 1) + 1);
   };
-  const std::vector<std::string> quiet = {"stylize",     "walk.bvh", "--style", "old=1",
-                                          "--no-timing", "--force",  "-o",      "old.bvh"};
+  const Words quiet = "stylize walk.bvh --style old=1 --no-timing --force -o old.bvh";
   std::vector<std::string> verbose = quiet, machine = quiet;
   verbose.push_back("--verbose");
   machine.push_back("--json");
@@ -242,7 +231,7 @@ TEST_F(Stylize, tells_unasked_where_most_of_a_motion_is_unlike_the_training_data
   add_gate(model, 1);
   for (float& mean : model.tensors["gate.mean"].values) mean += 100;
   write("model.safetensors", format_safetensors(model));
-  const std::vector<std::string> arguments = {"stylize", "walk.bvh", "--style", "old=1", "--json"};
+  const Words arguments = "stylize walk.bvh --style old=1 --json";
   const Ran ran = run(arguments);
   EXPECT_EQ(ran.err,
             "panache: walk.bvh: 100 % of its frames are unlike the motion that the styles were "
@@ -253,8 +242,7 @@ TEST_F(Stylize, tells_unasked_where_most_of_a_motion_is_unlike_the_training_data
 
 TEST_F(Stylize, leaves_nothing_half_written) {
   write_walk("walk.bvh");
-  const Ran ran = run({"stylize", "walk.bvh", "--style", "old=1", "-o", "out/a.bvh"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
+  must("stylize walk.bvh --style old=1 -o out/a.bvh");
   EXPECT_EQ(entries("out"), std::vector<std::string>{"a.bvh"});
   EXPECT_EQ(entries(), (std::vector<std::string>{"model.safetensors", "out", "walk.bvh"}));
 }

@@ -22,7 +22,7 @@ class ViewVerb : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    if (run({"view", "--help"}).out.find("not in this build") != std::string::npos) {
+    if (run("view --help").out.find("not in this build") != std::string::npos) {
       GTEST_SKIP() << "this build has no server for the page";
     }
     program_ = path("bin/panache");
@@ -96,18 +96,18 @@ class ViewVerb : public ProgramTest {
 };
 
 TEST_F(ViewVerb, explains_a_missing_page_and_a_damaged_file) {
-  Ran ran = run({"view"}, "model.safetensors", program_);
+  Ran ran = run("view", "model.safetensors", program_);
   EXPECT_EQ(ran.exit, 1);
   EXPECT_EQ(ran.err, "panache: the page was not found; searched " + path("share/panache/web") +
                          ", " + path("web") + "; ./run web makes it\n");
   write("damaged.bvh", "HIERARCHY\nROTO hips");
-  ran = run({"view", "damaged.bvh"}, "model.safetensors", program_);
+  ran = run("view damaged.bvh", "model.safetensors", program_);
   EXPECT_EQ(ran.exit, 1);
   EXPECT_EQ(ran.err.substr(0, 26), "panache: damaged.bvh:2:1: ");
   write("damaged.safetensors", "no model");
-  ran = run({"view", "--model", "damaged.safetensors"}, "model.safetensors", program_);
+  ran = run("view --model damaged.safetensors", "model.safetensors", program_);
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_TRUE(ran.err.starts_with("panache: damaged.safetensors: ")) << ran.err;
+  EXPECT_TRUE(begins(ran.err, "panache: damaged.safetensors: "));
 }
 
 TEST_F(ViewVerb, serves_page_and_file_and_nothing_else_under_no_name_but_its_own) {
@@ -163,7 +163,7 @@ TEST_F(ViewVerb, serves_its_own_files_only_however_the_path_is_written) {
         "../secret.txt"}) {
     const std::string answer = get(port, target, host);
     EXPECT_NE(status(answer), "HTTP/1.1 200") << target;
-    EXPECT_EQ(answer.find("secret\n"), std::string::npos) << target;
+    EXPECT_FALSE(holds(answer, "secret\n")) << target;
     EXPECT_FALSE(answer.ends_with("secret")) << target;
   }
   EXPECT_NE(status(get(port, path("secret.txt"), host)), "HTTP/1.1 200");
@@ -206,7 +206,7 @@ TEST_F(ViewVerb, rejects_other_hosts_other_origins_and_whatever_is_not_read) {
       ask(port, "POST / HTTP/1.1\r\n" + own + "Content-Length: " + std::to_string(inner.size()) +
                     "\r\n\r\n" + inner);
   EXPECT_EQ(status(twice), "HTTP/1.1 405");
-  EXPECT_EQ(twice.find("the page"), std::string::npos);
+  EXPECT_FALSE(holds(twice, "the page"));
 }
 
 // The value of a header, without quotes or the end of the line.
@@ -295,10 +295,10 @@ TEST_F(ViewVerb, keeps_pages_of_others_from_showing_or_reading_it) {
   for (const std::string header :
        {"Cross-Origin-Resource-Policy: same-origin\r\n", "X-Content-Type-Options: nosniff\r\n",
         "frame-ancestors 'none'"}) {
-    EXPECT_NE(answer.find(header), std::string::npos) << header;
+    EXPECT_TRUE(holds(answer, header)) << header;
   }
-  EXPECT_EQ(answer.find("Access-Control-Allow-Origin"), std::string::npos);
-  EXPECT_EQ(answer.find(" 'unsafe-eval'"), std::string::npos);
+  EXPECT_FALSE(holds(answer, "Access-Control-Allow-Origin"));
+  EXPECT_FALSE(holds(answer, " 'unsafe-eval'"));
 }
 
 #if defined(PANACHE_SECCOMP) && !defined(PANACHE_SANITIZED)  // Not under the sanitizers.

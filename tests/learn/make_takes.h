@@ -2,11 +2,14 @@
 // Takes made by a formula: a "walk" in a neutral and in a styled way whose correspondence is known.
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "base/random.h"
 #include "learn/take.h"
+#include "make_clip.h"
 #include "pose/features.h"
+#include "rig/rig.h"
 
 namespace panache::test {
 
@@ -36,6 +39,20 @@ inline Take make_take(const std::string& style, int frames, float start, float r
     add_frame(take, start + rate * 0.2f * static_cast<float>(f), lean);
   }
   write_numbers(layout, take);
+  return take;
+}
+
+inline constexpr float kBend = 0.4f;  // Radians, forward at the spine.
+
+// A walk that is bent at the spine.
+inline Take walk_take(const std::string& style, const std::string& content, int frames,
+                      float bend) {
+  Clip clip = walking_clip(frames);
+  for (int f = 0; f < frames; ++f) {
+    clip.pose(f).rotations[index(HumanJoint::spine)] = axis_angle(Vec3{1, 0, 0}, bend);
+  }
+  Take take = make_take(clip, *Rig::create(clip), PoseLayout::positions);
+  take.row = {style + content, style, content, "001", style == "neutral", true, 0};
   return take;
 }
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "make_takes.h"
+#include "learn/make_takes.h"
 
 namespace panache {
 namespace {

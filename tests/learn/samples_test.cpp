@@ -1,11 +1,16 @@
-#include "learn/samples.h"
+#include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "known_recipes.h"
 #include "learn/disturbance.h"
-#include "make_takes.h"
+#include "learn/fit_style.h"
+#include "learn/make_takes.h"
+#include "learn/samples.h"
+#include "learn/take.h"
+#include "make_model.h"
 #include "pose/features.h"
+#include "style/networks/networks.h"
 #include "style/stages/pose_change.h"
 
 namespace panache {
@@ -180,6 +185,78 @@ TEST(Samples, another_person_has_the_same_limbs_held_otherwise) {
     EXPECT_NEAR(wider[i] - set.mean()[i], draw.amplitude * (window[i] - set.mean()[i]), 1e-5);
   }
   EXPECT_NEAR(wider[63 + kVelocityForward], draw.amplitude * window[63 + kVelocityForward], 1e-5);
+}
+
+TEST(PoseError, the_true_change_leaves_no_error) {
+  const Take neutral = test::walk_take("neutral", "walk", 60, 0);
+  const Take styled = test::walk_take("old", "walk", 60, test::kBend);
+  const StyleDelta truth = change_between(styled, 20, neutral, 20, 1);
+  const PoseError error = pose_error(styled, 20, neutral, 20, truth);
+  // Rotation vectors in single precision; the trunk is resampled along its bend.
+  EXPECT_LT(error.degrees, 0.05);
+  EXPECT_LT(error.cm, 0.5);
+}
+
+TEST(PoseError, a_turn_of_one_joint_is_shared_among_all_joints) {
+  const Take neutral = test::walk_take("neutral", "walk", 60, 0);
+  StyleDelta change;
+  change.rotations[index(HumanJoint::head)].x = 0.5f;
+  const PoseError error = pose_error(neutral, 20, neutral, 20, change);
+  EXPECT_NEAR(error.degrees, 0.5 * 180 / M_PI / kHumanJoints, 1e-3);
+  EXPECT_NEAR(error.cm, 0, 1e-6);  // Nothing hangs on the head.
+}
+
+TEST(PoseError, a_body_that_is_too_low_is_off_by_that_much_everywhere) {
+  const Take neutral = test::walk_take("neutral", "walk", 60, 0);
+  StyleDelta change;
+  change.hips_height = -0.07f;
+  const PoseError error = pose_error(neutral, 20, neutral, 20, change);
+  EXPECT_NEAR(error.cm, 7, 1e-4);
+  EXPECT_NEAR(error.degrees, 0, 1e-3);
+}
+
+TEST(PoseError, between_frames_the_neutral_body_is_between_them) {
+  const Take neutral = test::walk_take("neutral", "walk", 60, 0);
+  const double before = pose_error(neutral, 20, neutral, 20, {}).cm;
+  const double half = pose_error(neutral, 20, neutral, 20.5f, {}).cm;
+  const double whole = pose_error(neutral, 20, neutral, 21, {}).cm;
+  EXPECT_EQ(before, 0);
+  EXPECT_NEAR(half, whole / 2, 0.02 * whole);
+}
+
+TEST(ActivationStatistics, are_those_of_neutral_takes_that_are_not_held_out) {
+  std::vector<Take> takes = {test::make_take("neutral", 40, 0, 1, 0)};
+  TensorFile file = test::make_model({"old"});
+  ASSERT_TRUE(add_activation_statistics(takes, file).ok());
+  const auto model = *Model::parse(format_safetensors(file), "m");
+  ASSERT_TRUE(model->can_learn());
+  // By hand, of every fifth frame, as the file keeps it in 16 bits.
+  const StyleNetworks networks(model);
+  std::vector<float> window(size_t(kWindowPoses) * 66), activations(model->activation_count());
+  double sum = 0, squares = 0;
+  for (int f = 0; f < 40; f += 5) {
+    take_window(takes[0], static_cast<float>(f), 66, window);
+    networks.activations(window, activations);
+    sum += activations[20] / 8.0;
+    squares += double(activations[20]) * activations[20] / 8.0;
+  }
+  EXPECT_NEAR(model->activation_mean()[20], sum, 1e-3);
+  EXPECT_NEAR(model->activation_scale()[20], std::sqrt(squares - sum * sum) + 0.01, 1e-3);
+
+  takes.push_back(test::make_take("old", 40, 0, 1, 0.5f));
+  takes.push_back(test::make_take("neutral", 40, 2, 1, 0.9f));
+  takes.back().row.test = true;
+  TensorFile again = test::make_model({"old"});
+  ASSERT_TRUE(add_activation_statistics(takes, again).ok());
+  EXPECT_EQ(again.tensors["learn.mean"].values, file.tensors["learn.mean"].values);
+}
+
+TEST(ActivationStatistics, a_model_of_the_slides_recipe_cannot_have_them) {
+  TensorFile file = test::make_model({"old"}, 1, test::kSmith2019);
+  const Result<void> added = add_activation_statistics({}, file);
+  ASSERT_FALSE(added.ok());
+  EXPECT_EQ(added.error().message,
+            "the model is of recipe smith2019, on which no style can be learnt");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file.h"
-#include "make_learnt.h"
+#include "make_model.h"
 #include "net/layer.h"
 #include "style/networks/networks.h"
 

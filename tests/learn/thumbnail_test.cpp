@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "make_walk_take.h"
+#include "learn/make_takes.h"
 
 namespace panache {
 namespace {

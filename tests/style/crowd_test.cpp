@@ -12,32 +12,46 @@
 #include "make_clip.h"
 #include "make_model.h"
 #include "net/layer.h"
+#include "style/model/person.h"
 
 namespace panache {
 namespace {
 
 constexpr double kSeconds = 1 / 60.0;
 
-enum class Kind { floats, bytes, gated, smith2019 };
+// The last two have all that a model may: a gate, reduced heads, a learnt style and persons.
+enum class Kind { floats, bytes, gated, smith2019, rich, rich_bytes };
+constexpr Kind kKinds[] = {Kind::floats,    Kind::bytes, Kind::gated,
+                           Kind::smith2019, Kind::rich,  Kind::rich_bytes};
 
 std::shared_ptr<const Model> make_model(Kind kind) {
   TensorFile file = test::make_model({"old", "proud"}, 3,
                                      kind == Kind::smith2019 ? test::kSmith2019 : test::kPanache);
-  if (kind == Kind::gated) test::add_gate(file, 1.5f);
-  if (kind == Kind::bytes) file = quantize(file);
+  const bool is_rich = kind == Kind::rich || kind == Kind::rich_bytes;
+  if (kind == Kind::gated || is_rich) test::add_gate(file, 1.5f);
+  if (is_rich) {
+    test::reduce_heads(file, 0.3f);
+    test::add_learnt(file, 0, "limping", "a take");
+    test::add_persons(file);
+  }
+  if (kind == Kind::bytes || kind == Kind::rich_bytes) file = quantize(file);
   return *Model::parse(format_safetensors(file), "test model");
 }
 
 // A character with a motion of its own, and where its styled poses go.
 struct Actor {
-  Actor(std::shared_ptr<const Model> model, const Clip& clip_, int start_,
+  Actor(const std::shared_ptr<const Model>& model, const Clip& clip_, int start_,
         std::vector<float> strengths_)
       : clip(clip_),
         start(start_),
         strengths(std::move(strengths_)),
-        stylizer(*Stylizer::create(std::move(model), *Rig::create(clip))),
+        stylizer(*Stylizer::create(model, *Rig::create(clip))),
         rotations(clip.joints()),
         translations(clip.joints()) {
+    strengths.resize(model->styles().size(), 0.4f);
+    // Every third is nobody.
+    const auto seed = static_cast<uint32_t>(start);
+    if (model->persons() && seed % 3) stylizer.set_person(person_of_seed(*model, seed, 1));
     // Some have one pass, some two.
     if (start % 3 == 1) stylizer.set_side(0, -1);
     if (start % 3 == 2) stylizer.set_side(1, 0.3f);
@@ -100,7 +114,7 @@ std::vector<Actor> crowd_of(std::shared_ptr<const Model> model, size_t count) {
 }
 
 TEST(Crowd, each_character_has_the_bits_that_it_has_alone_whatever_the_size_of_the_crowd) {
-  for (const Kind kind : {Kind::floats, Kind::bytes, Kind::gated, Kind::smith2019}) {
+  for (const Kind kind : kKinds) {
     SCOPED_TRACE(static_cast<int>(kind));
     const auto model = make_model(kind);
     for (size_t count = 1; count <= 17; ++count) expect_same(crowd_of(model, count), 8);
@@ -118,7 +132,7 @@ TEST(Crowd, characters_of_different_models_may_stand_side_by_side) {
 }
 
 TEST(Crowd, a_pose_that_is_not_finite_is_its_characters_own_affair) {
-  for (const Kind kind : {Kind::floats, Kind::bytes, Kind::gated}) {
+  for (const Kind kind : {Kind::floats, Kind::bytes, Kind::gated, Kind::rich}) {
     std::vector<Actor> actors = crowd_of(make_model(kind), 10);
     for (Quat& q : actors[2].clip.rotations) q.x = std::nanf("");
     for (Vec3& t : actors[6].clip.translations) t.y = std::numeric_limits<float>::infinity();

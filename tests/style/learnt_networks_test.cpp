@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "make_learnt.h"
-#include "net/layer.h"
+#include "make_model.h"
 #include "read_model.h"
 #include "style/networks/networks.h"
 
@@ -153,35 +152,6 @@ TEST(LearntNetworks, the_gate_is_the_mean_of_those_in_force_and_moves_by_its_sha
   EXPECT_NEAR(eased.gate(), 0.75, 1e-4);
   eased.forward(window, 0.25f);
   EXPECT_NEAR(eased.gate(), 0.75 * 0.75, 1e-4);
-}
-
-TEST(LearntNetworks, passes_together_have_the_bits_of_passes_alone) {
-  for (const bool int8 : {false, true}) {
-    TensorFile file = with_learnt(0.05f);
-    test::add_learnt(file, 1, "limping", "another", 9);
-    const auto model = read(int8 ? quantize(file) : file);
-    constexpr size_t kCount = 11;
-    std::vector<StyleNetworks> alone(kCount, StyleNetworks(model)), together = alone;
-    std::vector<std::vector<float>> windows;
-    std::vector<StyleNetworks::Pass> passes;
-    for (size_t i = 0; i < kCount; ++i) {
-      windows.push_back(window_of(i));
-      const std::array strengths = {i % 2 ? 0.5f : 0.0f, i % 3 ? 1.0f : 0.0f, i % 4 ? 0.3f : 0.0f};
-      alone[i].set_strengths(strengths);
-      together[i].set_strengths(strengths);
-    }
-    for (size_t i = 0; i < kCount; ++i) {
-      passes.push_back({&together[i], windows[i], 0.7f});
-      alone[i].forward(windows[i], 0.7f);
-    }
-    StyleNetworks::forward_all(passes);
-    for (size_t i = 0; i < kCount; ++i) {
-      EXPECT_TRUE(std::ranges::equal(alone[i].pose(), together[i].pose())) << i;
-      EXPECT_EQ(alone[i].log_rate(), together[i].log_rate()) << i;
-      EXPECT_EQ(alone[i].contact()[1], together[i].contact()[1]) << i;
-      EXPECT_EQ(alone[i].gate(), together[i].gate()) << i;
-    }
-  }
 }
 
 TEST(LearntNetworks, a_model_may_have_learnt_styles_only) {

@@ -104,42 +104,6 @@ TEST(Networks, each_style_has_its_own_tempo_and_contacts) {
   EXPECT_NE(rate(one, {1, 0}), rate(one, {0, 1}));
 }
 
-// Forward passes of several characters at once give each what it gets alone, its gate included.
-TEST(PassesTogether, have_the_bits_of_passes_alone) {
-  for (const int kind : {0, 1, 2, 3}) {
-    const bool int8 = kind % 2 == 1;
-    TensorFile file = test::make_model({"old", "proud", "sad"});
-    test::add_gate(file, 2);
-    if (kind >= 2) test::reduce_heads(file, 0.3f);
-    const auto model = read(int8 ? quantize(file) : file);
-    constexpr size_t kCount = 11;
-    std::vector<StyleNetworks> together(kCount, StyleNetworks(model)), alone = together;
-    std::vector<std::vector<float>> windows;
-    std::vector<StyleNetworks::Pass> passes;
-    for (size_t i = 0; i < kCount; ++i) windows.push_back(window_of(0.5f + float(i), i));
-    windows[5][7] = NAN;
-    for (size_t i = 0; i < kCount; ++i) {
-      const float size = static_cast<float>(i);
-      const std::vector<float> strengths = {size / 4, i % 3 ? 0.0f : 1.0f, -size / 8};
-      together[i].set_strengths(strengths);
-      alone[i].set_strengths(strengths);
-      passes.push_back({&together[i], windows[i], 0.3f});
-      alone[i].forward(windows[i], 0.3f);
-    }
-    StyleNetworks::forward_all(passes);
-    for (size_t i = 0; i < kCount; ++i) {
-      EXPECT_EQ(together[i].gate(), alone[i].gate()) << i;
-      for (size_t n = 0; n < alone[i].pose().size(); ++n) {
-        const float a = alone[i].pose()[n], b = together[i].pose()[n];
-        EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << i << ", number " << n;
-      }
-      if (i == 5) continue;
-      EXPECT_EQ(together[i].log_rate(), alone[i].log_rate()) << i;
-      EXPECT_EQ(together[i].contact()[1], alone[i].contact()[1]) << i;
-    }
-  }
-}
-
 TEST(Networks, in_int8_answer_like_float_ones) {
   const TensorFile file = test::make_model({"old"});
   StyleNetworks whole(read(file)), int8(read(quantize(file)));

@@ -52,14 +52,12 @@ class OddSteps : public testing::Test {
       if (f == kOdd) spoil(in.pose(f), strengths, character);
       if (f == kOdd + 1) character.stylizer().set_shape({});
       character.step(in.pose(f), strengths, f == kOdd ? seconds : kStepSeconds, out.pose(f));
-      for (size_t j = 0; j < out.joints(); ++j) {
-        const Quat q = out.pose(f).rotations[j];
-        EXPECT_NEAR(dot(q, q), 1, 0.01f) << "frame " << f;
-        EXPECT_TRUE(is_finite(out.pose(f).translations[j])) << "frame " << f;
-      }
-      EXPECT_TRUE(std::isfinite(character.ahead())) << "frame " << f;
-      EXPECT_TRUE(std::isfinite(character.stylizer().rate())) << "frame " << f;
-      EXPECT_TRUE(std::isfinite(character.stylizer().gate())) << "frame " << f;
+      bool is_whole = std::isfinite(character.ahead()) &&
+                      std::isfinite(character.stylizer().rate()) &&
+                      std::isfinite(character.stylizer().gate());
+      for (const Quat q : out.pose(f).rotations) is_whole &= std::abs(dot(q, q) - 1) <= 0.01f;
+      for (const Vec3 t : out.pose(f).translations) is_whole &= is_finite(t);
+      EXPECT_TRUE(is_whole) << "frame " << f;
     }
     return out;
   }
@@ -140,7 +138,7 @@ TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) 
   // A body that jumps far away and back starts afresh, as after a pause.
   LiveStylizer paused = character({});
   const Clip afresh = play(paused, 1);
-  for (const double size : {1e4, 1e8, 9e8, 1e18, 1e30, 3e38, kInfinity, kNan, 1e-40}) {
+  for (const double size : {1e4, 9e8, 1e18, 3e38, kInfinity, kNan, 1e-40}) {
     const auto number = static_cast<float>(size);
     const auto place = [&](size_t joint) {
       return [=](Pose pose, auto&, LiveStylizer&) {

@@ -9,14 +9,15 @@
 
 #include "allocations.h"
 #include "make_clip.h"
-#include "make_persons.h"
-#include "net/layer.h"
+#include "make_model.h"
 #include "read_model.h"
 #include "style/restyle.h"
 #include "style/stylizer.h"
 
 namespace panache {
 namespace {
+
+using test::same_bits;
 
 constexpr double kSeconds = 1 / 30.0;
 
@@ -39,12 +40,6 @@ class Persons : public testing::Test {
     }
     return out;
   }
-  static bool same(const Clip& a, const Clip& b) {
-    return std::memcmp(a.rotations.data(), b.rotations.data(), a.rotations.size() * sizeof(Quat)) ==
-               0 &&
-           std::memcmp(a.translations.data(), b.translations.data(),
-                       a.translations.size() * sizeof(Vec3)) == 0;
-  }
 
   Clip clip_ = test::walking_clip(90);
   Rig rig_ = *Rig::create(clip_);
@@ -52,18 +47,18 @@ class Persons : public testing::Test {
 
 TEST_F(Persons, with_all_numbers_0_leave_motion_and_styles_as_they_are_bit_for_bit) {
   const std::vector<float> nobody(3);
-  EXPECT_TRUE(same(run(nobody), clip_));
+  EXPECT_TRUE(same_bits(run(nobody), clip_));
   TensorFile without = test::make_model({"old", "proud"}, 3);
   test::add_gate(without, 1.5f);
-  EXPECT_TRUE(same(run(nobody, {1, 0.5f}), run({}, {1, 0.5f}, without)));
+  EXPECT_TRUE(same_bits(run(nobody, {1, 0.5f}), run({}, {1, 0.5f}, without)));
 }
 
 TEST_F(Persons, change_motion_each_number_in_its_own_way) {
   const Clip first = run(std::vector<float>{1, 0, 0}), second = run(std::vector<float>{0, 1, 0});
-  EXPECT_FALSE(same(first, clip_));
-  EXPECT_FALSE(same(second, clip_));
-  EXPECT_FALSE(same(first, second));
-  EXPECT_FALSE(same(run(std::vector<float>{1, 0, 0}, {1, 0}), run({}, {1, 0})));
+  EXPECT_FALSE(same_bits(first, clip_));
+  EXPECT_FALSE(same_bits(second, clip_));
+  EXPECT_FALSE(same_bits(first, second));
+  EXPECT_FALSE(same_bits(run(std::vector<float>{1, 0, 0}, {1, 0}), run({}, {1, 0})));
 }
 
 // The change of a person is the sum of its axes' changes, each in proportion to its number, and
@@ -131,59 +126,6 @@ TEST_F(Persons, ease_in_and_out) {
   stylizer.set_person(nobody);
   play(60, 90);
   EXPECT_GT(apart(60), 0.3 * apart(59));
-}
-
-TEST_F(Persons, of_a_crowd_get_the_bits_that_each_gets_alone) {
-  for (const bool int8 : {false, true}) {
-    const TensorFile file = int8 ? quantize(person_file()) : person_file();
-    const auto model = read(file);
-    std::vector<Stylizer> together, alone;
-    std::vector<Clip> out(11, clip_);
-    const std::vector<float> strengths = {0.5f, 0};
-    for (int i = 0; i < 11; ++i) {
-      for (auto* list : {&together, &alone}) {
-        list->push_back(*Stylizer::create(model, rig_));
-        // Every third is nobody.
-        if (i % 3) list->back().set_person(person_of_seed(*model, uint32_t(i), 1));
-        if (i % 4 == 1) list->back().set_side(0, 0.2f);
-      }
-    }
-    for (int f = 0; f < 30; ++f) {
-      std::vector<CrowdMember> members;
-      for (size_t i = 0; i < together.size(); ++i) {
-        members.push_back({&together[i], clip_.pose(f + int(i)), strengths, out[i].pose(f)});
-      }
-      step_crowd(members, kSeconds);
-      Clip single = clip_;
-      for (size_t i = 0; i < alone.size(); ++i) {
-        alone[i].step(clip_.pose(f + int(i)), strengths, kSeconds, single.pose(f));
-        ASSERT_EQ(std::memcmp(single.pose(f).rotations.data(), out[i].pose(f).rotations.data(),
-                              clip_.joints() * sizeof(Quat)),
-                  0)
-            << "character " << i << ", frame " << f << (int8 ? ", int8" : "");
-      }
-    }
-  }
-}
-
-TEST_F(Persons, are_part_of_a_saved_state) {
-  const auto model = read(person_file());
-  Stylizer one = *Stylizer::create(model, rig_), other = *Stylizer::create(model, rig_);
-  const std::vector<float> off = {0, 0}, somebody = {1, 1, -1};
-  Clip a = clip_, b = clip_;
-  one.set_person(somebody);
-  for (int f = 0; f < 40; ++f) one.step(clip_.pose(f), off, kSeconds, a.pose(f));
-  std::vector<std::byte> state(one.state_size());
-  one.save(state);
-  ASSERT_TRUE(other.restore(state));
-  other.set_person(somebody);
-  for (int f = 40; f < 60; ++f) {
-    one.step(clip_.pose(f), off, kSeconds, a.pose(f));
-    other.step(clip_.pose(f), off, kSeconds, b.pose(f));
-    ASSERT_EQ(std::memcmp(a.pose(f).rotations.data(), b.pose(f).rotations.data(),
-                          clip_.joints() * sizeof(Quat)),
-              0);
-  }
 }
 
 TEST_F(Persons, are_set_and_stepped_without_allocating) {

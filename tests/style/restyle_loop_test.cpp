@@ -209,7 +209,7 @@ TEST(RestyleLoop, loops_of_a_game_and_cycles_of_people_stay_loops) {
     EXPECT_TRUE(is_loop(seam_of(loops.back()), loops.back().frame_time)) << name;
   }
   for (const Clip& loop : loops) {
-    for (size_t s = 0; s < shipped()->styles().size(); s += 5) {
+    for (size_t s = 0; s < shipped()->styles().size(); s += 9) {
       const Restyled result =
           styled(loop, {static_cast<int>(s), {{0, 1}}}, LoopMode::detect, false);
       EXPECT_TRUE(result.loop.closed);

@@ -12,7 +12,6 @@
 
 #include "allocations.h"
 #include "make_clip.h"
-#include "make_learnt.h"
 #include "make_model.h"
 #include "pose/features.h"
 #include "style/networks/networks.h"
@@ -20,6 +19,8 @@
 
 namespace panache {
 namespace {
+
+using test::same_bits;
 
 // Two trained styles and a learnt one, each with a gate that is half closed for most windows.
 TensorFile sided_file() {
@@ -181,12 +182,6 @@ class SidedCharacter : public testing::Test {
   std::shared_ptr<const Model> model_;
 };
 
-bool same_clip(const Clip& a, const Clip& b) {
-  return std::memcmp(a.rotations.data(), b.rotations.data(), a.rotations.size() * sizeof(Quat)) ==
-             0 &&
-         a.translations == b.translations;
-}
-
 float largest_difference(const Clip& a, const Clip& b) {
   float largest = 0;
   for (size_t i = 0; i < a.rotations.size(); ++i) {
@@ -218,7 +213,7 @@ TEST_F(SidedCharacter, at_strength_zero_keeps_the_input_bit_for_bit_on_any_side)
     options.sides = {side, side, side};
     Stylizer one = character(options);
     const Clip out = run(one, clip_, {0, 0, 0});
-    EXPECT_TRUE(same_clip(out, clip_));
+    EXPECT_TRUE(same_bits(out, clip_));
   }
 }
 
@@ -243,30 +238,6 @@ TEST_F(SidedCharacter, changes_sides_without_a_jump) {
   EXPECT_LT(apart(60), 0.25f * apart(80)) << "eased over 0.15 s, and filtered";
 }
 
-TEST_F(SidedCharacter, saved_while_its_side_changes_goes_on_bit_for_bit) {
-  Stylizer one = character(), other = character();
-  Clip whole = clip_, again = clip_;
-  std::vector<std::byte> state;
-  const auto step = [&](Stylizer& stylizer, int f, Clip& out) {
-    if (f == 40) stylizer.set_side(2, -1);
-    stylizer.step(clip_.pose(f), kStrengths, clip_.frame_time, out.pose(f));
-  };
-  for (int f = 0; f < clip_.frames; ++f) {
-    step(one, f, whole);
-    if (f != 42) continue;
-    state.resize(one.state_size());
-    one.save(state);
-  }
-  other.set_side(2, -1);
-  ASSERT_TRUE(other.restore(state));
-  for (int f = 43; f < clip_.frames; ++f) {
-    step(other, f, again);
-    for (size_t j = 0; j < clip_.joints(); ++j) {
-      ASSERT_EQ(again.pose(f).rotations[j], whole.pose(f).rotations[j]) << f;
-    }
-  }
-}
-
 TEST_F(SidedCharacter, allocates_nothing_in_a_step) {
   StylizerOptions options;
   options.sides = {0, 0.5f, -1};
@@ -283,7 +254,7 @@ TEST_F(SidedCharacter, allocates_nothing_in_a_step) {
 TEST_F(SidedCharacter, ignores_sides_that_are_none) {
   Stylizer plain = character(), odd = character();
   odd.set_side(-1, -1), odd.set_side(3, -1), odd.set_side(0, std::nanf("")), odd.set_side(1, 7);
-  EXPECT_TRUE(same_clip(run(plain, clip_, kStrengths), run(odd, clip_, {kStrengths})));
+  EXPECT_TRUE(same_bits(run(plain, clip_, kStrengths), run(odd, clip_, {kStrengths})));
 }
 
 TEST_F(SidedCharacter, plays_a_clip_on_its_side) {
@@ -363,7 +334,7 @@ TEST(SideWords, have_no_meaning_where_styles_share_their_networks) {
     plain.step(clip.pose(f), std::array{1.0f, 0.0f}, clip.frame_time, a.pose(f));
     sided.step(clip.pose(f), std::array{1.0f, 0.0f}, clip.frame_time, b.pose(f));
   }
-  EXPECT_TRUE(same_clip(a, b));
+  EXPECT_TRUE(same_bits(a, b));
 }
 
 }  // namespace

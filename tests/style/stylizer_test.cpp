@@ -14,6 +14,8 @@
 namespace panache {
 namespace {
 
+using test::same_bits;
+
 std::shared_ptr<const Model> random_model(const Recipe& recipe = test::kPanache) {
   const TensorFile file = test::make_model({"old", "proud"}, 3, recipe);
   return *Model::parse(format_safetensors(file), "test model");
@@ -44,13 +46,6 @@ class StylizerTest : public testing::Test {
 
   Clip clip_;
 };
-
-bool same_bits(const Clip& a, const Clip& b) {
-  return std::memcmp(a.rotations.data(), b.rotations.data(), a.rotations.size() * sizeof(Quat)) ==
-             0 &&
-         std::memcmp(a.translations.data(), b.translations.data(),
-                     a.translations.size() * sizeof(Vec3)) == 0;
-}
 
 void expect_finite(const Clip& clip) {
   for (const Quat q : clip.rotations) {
@@ -348,35 +343,6 @@ TEST(Stylizer, options_out_of_range_are_rejected_with_a_message) {
   ASSERT_FALSE(created.ok());
   EXPECT_EQ(created.error().message,
             "stylizer option of -1.000000 seconds; expected 0 to 10 seconds");
-}
-
-TEST_F(StylizerTest, a_restored_state_goes_on_bit_for_bit) {
-  const auto model = gated_model(1);
-  const Rig rig = *Rig::create(clip_);
-  Stylizer one = *Stylizer::create(model, rig), other = *Stylizer::create(model, rig);
-  const std::vector<float> strengths = {0.7f, 0.4f};
-  Clip out = clip_, again = clip_;
-  const auto go = [&](Stylizer& stylizer, int from, int to, Clip& result) {
-    for (int f = from; f < to; ++f) {
-      stylizer.step(clip_.pose(f), strengths, clip_.frame_time, result.pose(f));
-    }
-  };
-  go(one, 0, 50, out);
-  std::vector<std::byte> state(one.state_size());
-  const long before = test::allocations;
-  one.save(state);
-  EXPECT_EQ(test::allocations, before);
-  go(one, 50, 100, out);
-  // Rewound by the same character, and taken over by one that was somewhere else.
-  go(other, 20, 40, again);
-  for (Stylizer* stylizer : {&one, &other}) {
-    ASSERT_TRUE(stylizer->restore(state));
-    go(*stylizer, 50, 100, again);
-    for (size_t i = 50 * clip_.joints(); i < 100 * clip_.joints(); ++i) {
-      ASSERT_EQ(std::memcmp(&out.rotations[i], &again.rotations[i], sizeof(Quat)), 0);
-      ASSERT_EQ(std::memcmp(&out.translations[i], &again.translations[i], sizeof(Vec3)), 0);
-    }
-  }
 }
 
 TEST_F(StylizerTest, a_state_that_is_damaged_or_of_another_model_is_rejected) {

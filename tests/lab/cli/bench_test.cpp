@@ -28,8 +28,7 @@ using Numbers = std::vector<float>;
 class BenchVerb : public LabTest {};
 
 TEST_F(BenchVerb, prints_every_number_that_it_promises) {
-  const Ran ran = run({"bench", "--steps", "100", "--json"});
-  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Ran ran = must("bench --steps 100 --json");
   const auto json = nlohmann::json::parse(ran.out);
   const std::pair<const char*, std::vector<const char*>> expected[] = {
       {"forward_pass_us", {"panache", "panache_half", "read_limit"}},
@@ -88,31 +87,21 @@ TEST(BenchMotions, clap_and_crouch_on_84_joints) {
 }
 
 TEST_F(BenchVerb, prints_tables_that_name_what_is_missing) {
-  const Ran ran = run({"bench", "--steps", "20"});
-  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Ran ran = must("bench --steps 20");
   for (const char* part : {"reading the weights, no more", "mode-adaptive (2018)", "20 steps",
                            "write the pose (rig)", "1,000 ", "a character"}) {
-    EXPECT_NE(ran.out.find(part), std::string::npos) << part << "\n" << ran.out;
+    EXPECT_TRUE(holds(ran.out, part)) << part << "\n" << ran.out;
   }
   const bool missing = ran.out.find("missing: ") != std::string::npos;
   EXPECT_EQ(ran.out.find("./run bench in a checkout") != std::string::npos, missing);
 }
 
 TEST_F(BenchVerb, rejects_what_it_does_not_know) {
-  const auto expect_rejected = [&](const std::vector<std::string>& arguments, int exit,
-                                   const std::string& message) {
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.err, "panache-lab: " + message + "\n");
-    EXPECT_EQ(ran.exit, exit);
-    EXPECT_EQ(ran.out, "");
-  };
-  expect_rejected({"bench", "--fast"}, 2,
-                  "there is no option '--fast'; see panache-lab bench --help");
-  expect_rejected({"bench", "--steps", "0"}, 2,
-                  "--steps: expected a number from 1 to 1e+09, found 0");
-  expect_rejected({"bench", "--steps", "9", "--quick"}, 2,
+  expect_rejected("bench --fast", 2, "there is no option '--fast'; see panache-lab bench --help");
+  expect_rejected("bench --steps 0", 2, "--steps: expected a number from 1 to 1e+09, found 0");
+  expect_rejected("bench --steps 9 --quick", 2,
                   "--steps excludes --quick; see panache-lab bench --help");
-  expect_rejected({"bench", "--model", "none.safetensors"}, 1,
+  expect_rejected("bench --model none.safetensors", 1,
                   "none.safetensors: cannot be read: No such file or directory");
 }
 

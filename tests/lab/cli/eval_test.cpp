@@ -23,13 +23,6 @@ class Eval : public LabTest {
   std::string table(const std::string& rows) const {
     return "path,style,content,take,neutral,split\n" + rows;
   }
-  void expect_rejected(const std::vector<std::string>& arguments, const std::string& message,
-                       int exit = 1) const {
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.err, "panache-lab: " + message + "\n");
-    EXPECT_EQ(ran.exit, exit);
-    EXPECT_EQ(ran.out, "");
-  }
 };
 
 void expect_metrics(const Json& quality) {
@@ -63,14 +56,13 @@ void expect_system(const Json& system) {
 
 // One run answers all questions: to train the judges takes long.
 TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
-  const Ran ran =
-      run({"eval", "takes.csv", "--model", "model.safetensors", "--system", "xia2015", "--system",
-           "yumer2016", "--unseen-split", "wave", "--steps", "20", "--report", "report", "--json"});
-  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Ran ran = must(
+      "eval takes.csv --model model.safetensors --system xia2015 --system yumer2016 "
+      "--unseen-split wave --steps 20 --report report --json");
   EXPECT_EQ(ran.err, "");
   EXPECT_EQ(entries("report"), (std::vector<std::string>{"index.html", "report.json"}));
   EXPECT_EQ(read("report/report.json"), ran.out);
-  EXPECT_NE(read("report/index.html").find("<html"), std::string::npos);
+  EXPECT_TRUE(holds(read("report/index.html"), "<html"));
 
   const Json report = Json::parse(ran.out);
   EXPECT_EQ(report["styles"], Json({"old", "proud"}));
@@ -135,20 +127,19 @@ TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
 }
 
 TEST_F(Eval, a_system_that_nobody_knows_is_rejected_with_those_that_there_are) {
-  expect_rejected({"eval", "takes.csv", "--system", "xia2016"},
+  expect_rejected("eval takes.csv --system xia2016", 1,
                   "--system: no system 'xia2016'; expected all, xia2015, yumer2016 or holden2017");
 }
 
 // Our own outputs, made by the program as anybody's would be, judged beside the model itself.
 TEST_F(Eval, outputs_of_another_program_are_judged_as_if_it_had_been_run) {
   std::filesystem::create_directories(path("theirs"));
-  ASSERT_EQ(run({"eval", "takes.csv", "--requests", "theirs/manifest.csv"}).exit, 0);
+  must("eval takes.csv --requests theirs/manifest.csv");
   const std::string manifest = read("theirs/manifest.csv");
-  EXPECT_TRUE(
-      manifest.starts_with("input,style,strength,output\n"
-                           "\"neutral-walk-2.bvh\",\"old\",1,\"1_neutral-walk-2_old.bvh\"\n"
-                           "\"neutral-walk-2.bvh\",\"proud\",1,\"2_neutral-walk-2_proud.bvh\"\n"))
-      << manifest;
+  EXPECT_TRUE(begins(manifest,
+                     "input,style,strength,output\n"
+                     "\"neutral-walk-2.bvh\",\"old\",1,\"1_neutral-walk-2_old.bvh\"\n"
+                     "\"neutral-walk-2.bvh\",\"proud\",1,\"2_neutral-walk-2_proud.bvh\"\n"));
   int count = 0;
   for (const std::string content : kContents) {
     for (const std::string take : {"2", "3"}) {
@@ -165,9 +156,8 @@ TEST_F(Eval, outputs_of_another_program_are_judged_as_if_it_had_been_run) {
   // A strength of which there is but one take.
   write("theirs/manifest.csv", manifest + "neutral-walk-2.bvh,old,0.5,1_neutral-walk-2_old.bvh\n");
 
-  const Ran ran = run({"eval", "takes.csv", "--model", "model.safetensors", "--recorded", "theirs",
-                       "--report", "report", "--json"});
-  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Ran ran =
+      must("eval takes.csv --model model.safetensors --recorded theirs --report report --json");
   const Json systems = Json::parse(ran.out)["systems"];
   EXPECT_EQ(systems.size(), 3u);
   const Json &theirs = systems.at("theirs"), &ours = systems.at("model");
@@ -186,8 +176,7 @@ TEST_F(Eval, outputs_of_another_program_are_judged_as_if_it_had_been_run) {
   EXPECT_EQ(theirs["recorded"], (Json{{"listed", 9}, {"judged", 9}}));
 
   // Who asks for outputs alone does not wait for training.
-  const Ran alone = run({"eval", "takes.csv", "--recorded", "theirs", "--json"});
-  ASSERT_EQ(alone.exit, 0) << alone.err;
+  const Ran alone = must("eval takes.csv --recorded theirs --json");
   const Json alone_systems = Json::parse(alone.out)["systems"];
   EXPECT_EQ(alone_systems.size(), 2u);
   EXPECT_TRUE(alone_systems.contains("theirs") && alone_systems.contains("mean posture"));
@@ -195,13 +184,13 @@ TEST_F(Eval, outputs_of_another_program_are_judged_as_if_it_had_been_run) {
 
 TEST_F(Eval, outputs_with_a_manifest_that_is_wrong_are_rejected_at_once) {
   write("theirs/manifest.csv", "input,style,strength,output\nneutral-walk-2.bvh,old,1,a.bvh\n");
-  expect_rejected({"eval", "takes.csv", "--model", "model.safetensors", "--recorded", "theirs"},
+  expect_rejected("eval takes.csv --model model.safetensors --recorded theirs", 1,
                   "theirs/manifest.csv:2: output theirs/a.bvh: cannot be read: No such file or "
                   "directory");
-  expect_rejected({"eval", "takes.csv", "--recorded", "theirs", "--recorded", "./theirs/"},
+  expect_rejected("eval takes.csv --recorded theirs --recorded ./theirs/", 1,
                   "./theirs/: has the name of theirs; the report names outputs by their folder, so "
                   "give it another name");
-  expect_rejected({"eval", "takes.csv", "--requests", "theirs/manifest.csv"},
+  expect_rejected("eval takes.csv --requests theirs/manifest.csv", 1,
                   "theirs/manifest.csv: exists already; --force overwrites it");
 }
 
@@ -217,20 +206,17 @@ TEST_F(Eval, takes_that_differ_in_name_only_are_evaluated_beside_what_real_takes
     rows += "old-" + content + "-2.bvh,proud," + content + ",2,0,test\n";
   }
   write("crossed.csv", table(rows));
-  const Ran ran =
-      run({"eval", "crossed.csv", "--model", "model.safetensors", "--report", "report"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.out.find("The style classifier recognises 0.000 of the windows of real held-out "
-                         "takes, less than 0.950"),
-            std::string::npos)
-      << ran.out;
+  const Ran ran = must("eval crossed.csv --model model.safetensors --report report");
+  EXPECT_TRUE(holds(ran.out,
+                    "The style classifier recognises 0.000 of the windows of real held-out "
+                    "takes, less than 0.950"));
   EXPECT_TRUE(exists("report"));
 }
 
 TEST_F(Eval, without_test_takes_there_is_nothing_to_judge_by) {
   write("all.csv", table("neutral-walk-0.bvh,neutral,walk,0,1,train\n"
                          "old-walk-0.bvh,old,walk,0,0,train\n"));
-  expect_rejected({"eval", "all.csv", "--model", "model.safetensors"},
+  expect_rejected("eval all.csv --model model.safetensors", 1,
                   "all.csv: marks no take as test; mark some in its column split, or give a "
                   "manifest of test takes with --test");
 }
@@ -241,10 +227,10 @@ TEST_F(Eval, test_takes_of_one_kind_only_are_rejected) {
       "old-walk-0.bvh,old,walk,0,0,train\n";
   write("styled.csv", table(train + "old-walk-2.bvh,old,walk,2,0,test\n"));
   expect_rejected(
-      {"eval", "styled.csv", "--model", "model.safetensors"},
+      "eval styled.csv --model model.safetensors", 1,
       "no neutral test take of a content that is trained on; expected rows with neutral 1");
   write("neutral.csv", table(train + "neutral-walk-2.bvh,neutral,walk,2,1,test\n"));
-  expect_rejected({"eval", "neutral.csv", "--model", "model.safetensors"},
+  expect_rejected("eval neutral.csv --model model.safetensors", 1,
                   "no styled test take of a style and content that are trained on; expected rows "
                   "with neutral 0");
 }
@@ -253,45 +239,42 @@ TEST_F(Eval, takes_that_were_trained_on_or_are_of_other_styles_do_not_judge) {
   const std::string message =
       "others.csv: has no usable test take: all of them are trained on, or of styles that the "
       "training manifests do not have";
-  const std::vector<std::string> arguments = {"eval",       "takes.csv", "--test",
-                                              "others.csv", "--model",   "model.safetensors"};
+  const Words arguments = "eval takes.csv --test others.csv --model model.safetensors";
   // The same file by another way there.
   write("others.csv", table("./old-walk-0.bvh,old,walk,0,0,train\n"));
-  expect_rejected(arguments, message);
+  expect_rejected(arguments, 1, message);
   write("others.csv", table("old-walk-2.bvh,jolly,walk,2,0,test\n"));
-  expect_rejected(arguments, message);
+  expect_rejected(arguments, 1, message);
 }
 
 TEST_F(Eval, an_unknown_split_is_rejected) {
-  const std::vector<std::string> arguments = {"eval", "takes.csv", "--model", "model.safetensors",
-                                              "--unseen-split"};
+  const Words arguments = "eval takes.csv --model model.safetensors --unseen-split";
   const auto with = [&](const std::string& split) {
     std::vector<std::string> all = arguments;
     all.push_back(split);
     return all;
   };
   expect_rejected(
-      with("D"),
+      with("D"), 1,
       "unseen content 'D' has no styled test take; expected contents of the styled test "
       "takes: walk, wave");
-  expect_rejected(with("walk,,wave"),
+  expect_rejected(with("walk,,wave"), 1,
                   "--unseen-split: split 'walk,,wave'; expected A, B or C, or different contents "
                   "with commas between them");
 }
 
 TEST_F(Eval, a_report_that_exists_is_kept) {
   write("report/report.json", "mine");
-  expect_rejected({"eval", "takes.csv", "--model", "model.safetensors", "--report", "report"},
+  expect_rejected("eval takes.csv --model model.safetensors --report report", 1,
                   "report/report.json: exists already; --force overwrites it");
   EXPECT_EQ(read("report/report.json"), "mine");
 }
 
 TEST_F(Eval, two_models_of_one_name_are_rejected) {
   write("other/model.safetensors", read("model.safetensors"));
-  expect_rejected(
-      {"eval", "takes.csv", "--model", "model.safetensors", "--model", "other/model.safetensors"},
-      "other/model.safetensors: has the name of model.safetensors; the report names "
-      "models by their files, so give one another name");
+  expect_rejected("eval takes.csv --model model.safetensors --model other/model.safetensors", 1,
+                  "other/model.safetensors: has the name of model.safetensors; the report names "
+                  "models by their files, so give one another name");
 }
 
 // Two styles of which training takes say the opposite of test takes: no classifier can know them.
@@ -310,15 +293,13 @@ TEST_F(Eval, figures_come_also_where_the_classifier_does_not_know_real_takes) {
     }
   }
   write("exchanged.csv", rows);
-  const Ran ran = run(
-      {"eval", "exchanged.csv", "--model", "model.safetensors", "--report", "report", "--json"});
-  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Ran ran = must("eval exchanged.csv --model model.safetensors --report report --json");
   const Json report = Json::parse(ran.out);
   EXPECT_LT(report["real"]["style_accuracy"], 0.5);
   ASSERT_EQ(report["notes"].size(), 1u);
   const std::string note = report["notes"][0];
-  EXPECT_TRUE(note.starts_with("The style classifier recognises 0.")) << note;
-  EXPECT_NE(read("report/index.html").find(note), std::string::npos);
+  EXPECT_TRUE(begins(note, "The style classifier recognises 0."));
+  EXPECT_TRUE(holds(read("report/index.html"), note));
   const Json& seen = report["systems"]["model"]["seen"];
   for (const char* key :
        {"pose_error_cm", "pose_error_deg", "jerk_ratio", "skating_cm_s", "cadence_ratio"}) {
@@ -327,11 +308,11 @@ TEST_F(Eval, figures_come_also_where_the_classifier_does_not_know_real_takes) {
 }
 
 TEST_F(Eval, a_manifest_or_model_that_is_none_is_explained) {
-  expect_rejected({"eval", "none.csv"}, "none.csv: cannot be read: No such file or directory");
-  expect_rejected({"eval", "takes.csv", "--model", "takes.csv"},
+  expect_rejected("eval none.csv", 1, "none.csv: cannot be read: No such file or directory");
+  expect_rejected("eval takes.csv --model takes.csv", 1,
                   "takes.csv: does not start with the length of a header (at most 4194304 bytes); "
                   "expected a safetensors file, as models and styles are");
-  EXPECT_EQ(run({"eval", "takes.csv", "--steps", "0"}).exit, 2);
+  EXPECT_EQ(run("eval takes.csv --steps 0").exit, 2);
 }
 
 }  // namespace

@@ -7,8 +7,7 @@ namespace panache::test {
 
 class LabTest : public ProgramTest {
  protected:
-  Ran run_panache(const std::vector<std::string>& arguments,
-                  const std::string& model = "model.safetensors") const {
+  Ran run_panache(const Words& arguments, const std::string& model = "model.safetensors") const {
     return run(arguments, model, PANACHE_PRODUCT);
   }
 };

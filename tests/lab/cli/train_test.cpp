@@ -10,17 +10,18 @@
 namespace panache {
 namespace {
 
+using test::begins;
+using test::holds;
+using test::Words;
 using Train = test::LabTest;
 
 TEST_F(Train, a_checkpoint_that_cannot_be_saved_ends_it_with_one_message) {
   test::write_manifest(path(""));
   // Where a checkpoint is to be written there is a link into a folder that does not exist.
   std::filesystem::create_symlink("none/x", path("mine.safetensors.pose.checkpoint"));
-  const test::Ran ran = run({"train", "manifest.csv", "--steps", "5", "-o", "mine.safetensors"});
+  const test::Ran ran = run("train manifest.csv --steps 5 -o mine.safetensors");
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_NE(ran.err.find("panache-lab: mine.safetensors.pose.checkpoint: cannot be written"),
-            std::string::npos)
-      << ran.err;
+  EXPECT_TRUE(holds(ran.err, "panache-lab: mine.safetensors.pose.checkpoint: cannot be written"));
   const std::string last = ran.err.substr(ran.err.find("panache-lab: "));
   EXPECT_EQ(std::count(last.begin(), last.end(), '\n'), 1) << ran.err;
   EXPECT_FALSE(exists("mine.safetensors"));
@@ -28,12 +29,10 @@ TEST_F(Train, a_checkpoint_that_cannot_be_saved_ends_it_with_one_message) {
 
 TEST_F(Train, motion_without_styles_is_only_for_recipes_that_can_use_it) {
   test::write_manifest(path(""));
-  const std::vector<std::string> command = {"train",    "manifest.csv",    "--unlabelled",
-                                            "pool.csv", "--steps",         "5",
-                                            "-o",       "mine.safetensors"};
+  const Words command = "train manifest.csv --unlabelled pool.csv --steps 5 -o mine.safetensors";
   test::Ran ran = run(command);
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_NE(ran.err.find("pool.csv"), std::string::npos) << ran.err;
+  EXPECT_TRUE(holds(ran.err, "pool.csv"));
   write("pool.csv", "path,style,content,take,neutral,split\nneutral.bvh,any,walk,001,1,train\n");
   std::vector<std::string> smith = command;
   smith.insert(smith.end(), {"--recipe", "smith2019"});
@@ -49,9 +48,8 @@ TEST_F(Train, a_style_that_cannot_be_learnt_is_an_error_and_whatever_is_left_out
   test::write_manifest(path(""));
   const std::string rows = read("manifest.csv");
   write("manifest.csv", rows + "old.bvh,sad,crawl,001,0,train\nold.bvh,old,crawl,001,0,train\n");
-  const std::vector<std::string> command = {"train", "manifest.csv",  "--steps",  "5",
-                                            "-o",    "m.safetensors", "--styles", "styles.csv"};
-  test::Ran ran = run({command.begin(), command.end() - 2});
+  const Words command = "train manifest.csv --steps 5 -o m.safetensors --styles styles.csv";
+  test::Ran ran = run(std::vector<std::string>(command.begin(), command.end() - 2));
   EXPECT_EQ(ran.exit, 1);
   EXPECT_EQ(
       ran.err,
@@ -62,20 +60,18 @@ TEST_F(Train, a_style_that_cannot_be_learnt_is_an_error_and_whatever_is_left_out
   write("styles.csv", "name,from,description\nold,old,\n");
   ran = run(command);
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_TRUE(ran.err.starts_with(
+  EXPECT_TRUE(begins(
+      ran.err,
       "panache-lab: manifest.csv: style 'sad' is left out: it is not among the styles to learn (1 "
       "take)\n"
       "panache-lab: manifest.csv: content 'crawl' is left out: it has no neutral take (1 take of "
-      "old)\n"))
-      << ran.err;
-  EXPECT_NE(ran.out.find("\nstyle     takes  seconds  samples\nold           1      "),
-            std::string::npos)
-      << ran.out;
+      "old)\n"));
+  EXPECT_TRUE(holds(ran.out, "\nstyle     takes  seconds  samples\nold           1      "));
   // Nothing is held back of two takes.
   const std::string losses = read("m.safetensors.losses.csv");
-  EXPECT_NE(losses.find("pose,5,"), std::string::npos) << losses;
-  EXPECT_EQ(losses.find("0.000000"), std::string::npos) << losses;
-  EXPECT_NE(losses.find(",\n"), std::string::npos) << losses;
+  EXPECT_TRUE(holds(losses, "pose,5,"));
+  EXPECT_FALSE(holds(losses, "0.000000"));
+  EXPECT_TRUE(holds(losses, ",\n"));
   std::vector<std::string> json = command;
   json.insert(json.end(), {"--json", "--force"});
   const auto report = nlohmann::json::parse(run(json).out);
@@ -91,7 +87,7 @@ TEST_F(Train, all_missing_files_are_named_at_once) {
   write("manifest.csv", read("manifest.csv") +
                             "a.bvh,old,walk,002,0,train\nb/c.bvh,old,walk,003,0,train\n"
                             "d.bvh,old,walk,004,0,test\n");
-  const test::Ran ran = run({"train", "manifest.csv", "--steps", "5", "-o", "m.safetensors"});
+  const test::Ran ran = run("train manifest.csv --steps 5 -o m.safetensors");
   EXPECT_EQ(ran.exit, 1);
   EXPECT_EQ(
       ran.err,
@@ -103,8 +99,7 @@ TEST_F(Train, all_missing_files_are_named_at_once) {
 
 TEST_F(Train, ctrl_c_says_what_is_left_and_the_same_command_goes_on) {
   test::write_manifest(path(""));
-  const std::vector<std::string> command = {"train", "manifest.csv", "--steps",
-                                            "100",   "-o",           "m.safetensors"};
+  const Words command = "train manifest.csv --steps 100 -o m.safetensors";
   const pid_t training = start(command);
   const auto is_over = [&] {
     siginfo_t info{};
@@ -115,10 +110,9 @@ TEST_F(Train, ctrl_c_says_what_is_left_and_the_same_command_goes_on) {
   ::kill(training, SIGINT);
   test::Ran ran = finish(training);
   ASSERT_EQ(ran.exit, 130) << ran.err;
-  EXPECT_TRUE(ran.err.starts_with(
-      "panache-lab: stopped; the same command goes on from the last checkpoint"))
-      << ran.err;
-  EXPECT_NE(ran.err.find("m.safetensors.pose.checkpoint"), std::string::npos) << ran.err;
+  EXPECT_TRUE(
+      begins(ran.err, "panache-lab: stopped; the same command goes on from the last checkpoint"));
+  EXPECT_TRUE(holds(ran.err, "m.safetensors.pose.checkpoint"));
   EXPECT_FALSE(exists("m.safetensors"));
   ran = run(command);
   EXPECT_EQ(ran.exit, 0) << ran.err;
@@ -127,19 +121,19 @@ TEST_F(Train, ctrl_c_says_what_is_left_and_the_same_command_goes_on) {
 
 TEST_F(Train, manifests_may_name_files_that_only_the_program_reads) {
   test::write_manifest(path(""));
-  const test::Ran converted = run_panache({"convert", "neutral.bvh", "-o", "neutral.npz"});
+  const test::Ran converted = run_panache("convert neutral.bvh -o neutral.npz");
   if (converted.exit != 0) GTEST_SKIP() << "this build has no libzip";
   write("pool.csv", "path,style,content,take,neutral,split\nneutral.npz,any,walk,001,1,train\n");
-  const test::Ran ran = run({"train", "manifest.csv", "--unlabelled", "pool.csv", "--steps", "5",
-                             "-o", "mine.safetensors"});
+  const test::Ran ran =
+      run("train manifest.csv --unlabelled pool.csv --steps 5 -o mine.safetensors");
   EXPECT_EQ(ran.exit, 0) << ran.err;
   EXPECT_TRUE(exists("mine.safetensors"));
 }
 
 TEST_F(Train, unlabelled_motion_is_of_no_use_to_a_recipe_without_guidance) {
   test::write_manifest(path(""));
-  const test::Ran ran = run({"train", "manifest.csv", "--unlabelled", "manifest.csv", "--recipe",
-                             "smith2019", "-o", "mine.safetensors"});
+  const test::Ran ran =
+      run("train manifest.csv --unlabelled manifest.csv --recipe smith2019 -o mine.safetensors");
   EXPECT_EQ(ran.exit, 1);
   EXPECT_EQ(ran.err,
             "panache-lab: --unlabelled: recipe smith2019 learns from styled takes alone; leave the "
@@ -148,9 +142,8 @@ TEST_F(Train, unlabelled_motion_is_of_no_use_to_a_recipe_without_guidance) {
 
 TEST_F(Train, motion_in_styles_is_needed) {
   write("pool.csv", "path,style,content,take,neutral,split\nneutral.bvh,any,walk,001,1,train\n");
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"train", "-o", "mine.safetensors"},
-        {"train", "--unlabelled", "pool.csv", "-o", "mine.safetensors"}}) {
+  for (const auto& arguments : {std::vector<std::string>{"train", "-o", "mine.safetensors"},
+                                {"train", "--unlabelled", "pool.csv", "-o", "mine.safetensors"}}) {
     const test::Ran ran = run(arguments);
     EXPECT_EQ(ran.exit, 2);
     EXPECT_EQ(ran.err, "panache-lab: manifests is required; see panache-lab train --help\n");

@@ -6,7 +6,7 @@
 
 #include "eval/aligned_takes.h"
 #include "eval/systems/model_system.h"
-#include "learn/make_walk_take.h"
+#include "learn/make_takes.h"
 #include "make_model.h"
 
 namespace panache::test {

@@ -1,14 +1,20 @@
-#include "eval/report.h"
+// The report as a text, and what is put into its page, which is tested in a browser:
+// page/page.test.mjs.
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "base/xml_check.h"
 #include "eval/make_report.h"
+#include "eval/report.h"
+#include "eval/report_numbers.h"
 
 namespace panache {
 namespace {
@@ -93,6 +99,76 @@ TEST(ReportText, all_its_parts_are_there) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(occurrences(report_text(Report()), "Foreign"), 0u);
+}
+
+// What is put into the page of a report. The page itself is tested in a browser:
+// page/page.test.mjs.
+
+// What stands between `open` and the next `close`.
+std::string between(const std::string& page, std::string_view open, std::string_view close) {
+  const size_t from = page.find(open);
+  EXPECT_NE(from, page.npos) << open;
+  const size_t begin = from + open.size();
+  return page.substr(begin, page.find(close, begin) - begin);
+}
+std::string numbers_in(const std::string& page) {
+  return between(page, "<script id=\"report\" type=\"application/json\">", "</script>");
+}
+
+TEST(ReportPage, it_holds_the_numbers_of_the_json) {
+  using OrderedJson = nlohmann::ordered_json;
+  const Report report = made_up_report();
+  EXPECT_EQ(OrderedJson::parse(numbers_in(report_page(report))),
+            OrderedJson::parse(report_json(report)));
+  EXPECT_EQ(OrderedJson::parse(numbers_in(report_page(Report()))),
+            OrderedJson::parse(report_json(Report())));
+}
+
+TEST(ReportPage, it_asks_the_network_for_nothing) {
+  const std::string page = report_page(made_up_report());
+  for (const char* reference :
+       {"src=", "url(", "@import", "<link", "import(", "fetch(", "<iframe"}) {
+    EXPECT_EQ(occurrences(page, reference), 0u) << reference;
+  }
+  // The name of SVG's kind of XML is a name, not an address to load from.
+  EXPECT_EQ(occurrences(page, "http"), occurrences(page, "http://www.w3.org/2000/svg"));
+}
+
+TEST(ReportPage, no_name_ends_the_script_or_breaks_a_strip) {
+  Report report = made_up_report();
+  const std::string before = report_page(report);
+  const std::string name = "</script><!--" + kRude + "</template>";
+  report.systems[0].name = report.systems[0].recipe = report.styles[0] = name;
+  report.strips[0].title = report.strips[0].rows[0].label = name;
+  const std::string page = report_page(report);
+  for (const char* tag : {"</script>", "<!--", "</template>", "<script"}) {
+    EXPECT_EQ(occurrences(page, tag), occurrences(before, tag)) << tag;
+  }
+  const std::string strips = between(page, "<template id=\"drawn-strips\">", "</template>");
+  EXPECT_EQ(xml_problem(strips), "");
+  EXPECT_EQ(occurrences(strips, "<figure"), 1u);
+}
+
+TEST(ReportNumbers, numbers_are_written_alike_everywhere) {
+  EXPECT_EQ(number_text(0.9996, 3), "1.000");
+  EXPECT_EQ(number_text(-0.0004, 3), "0.000");
+  EXPECT_EQ(number_text(-0.5, 1), "-0.5");
+  EXPECT_EQ(number_text(kNotMeasured, 2), kDash);
+  EXPECT_EQ(count_text(0), kDash);
+  EXPECT_EQ(count_text(999), "999");
+  EXPECT_EQ(count_text(1234567), "1,234,567");
+}
+
+TEST(ReportNumbers, means_and_quantiles_leave_out_what_was_not_measured) {
+  EXPECT_EQ(quantile({3, kNotMeasured, 1, 2}, 0.5), 2);
+  EXPECT_EQ(quantile({1, 2}, 0.5), 1.5);
+  EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
+  Metrics a = numbers(0.2), b = numbers(0.4);
+  b["fmd"] = kNotMeasured;
+  const Metrics mean = mean_metrics(MetricsTable{{"a", a}, {"b", b}});
+  EXPECT_EQ(mean.takes, a.takes + b.takes);
+  EXPECT_DOUBLE_EQ(mean["style_accuracy"], (a["style_accuracy"] + b["style_accuracy"]) / 2);
+  EXPECT_EQ(mean["fmd"], a["fmd"]);
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 namespace panache {
 namespace {
 
+using test::same_bits;
+
 // Sure that both feet stand, so that the foot lock has something to do.
 std::shared_ptr<const Model> random_model() {
   TensorFile file = test::make_model({"old", "proud"}, 3);
@@ -19,7 +21,7 @@ std::shared_ptr<const Model> random_model() {
   return *Model::parse(format_safetensors(file), "test model");
 }
 
-class ShapeTest : public testing::Test {
+class PartialStyle : public testing::Test {
  protected:
   // All frames with these strengths and this shape, which begins to hold at frame `from`.
   Clip run(const Shape& shape, std::vector<float> strengths = {1, 0.5f}, int from = 0) const {
@@ -41,21 +43,13 @@ class ShapeTest : public testing::Test {
 
 float& part(Shape& shape, Region region) { return shape.regions[static_cast<size_t>(region)]; }
 
-bool same_bits(const Clip& a, const Clip& b) {
-  return a.rotations.size() == b.rotations.size() &&
-         std::memcmp(a.rotations.data(), b.rotations.data(), a.rotations.size() * sizeof(Quat)) ==
-             0 &&
-         std::memcmp(a.translations.data(), b.translations.data(),
-                     a.translations.size() * sizeof(Vec3)) == 0;
-}
-
-TEST_F(ShapeTest, lets_the_feet_go_where_they_are_not_to_be_locked) {
+TEST_F(PartialStyle, lets_the_feet_go_where_they_are_not_to_be_locked) {
   Shape shape;
   shape.foot_lock = 0;
   EXPECT_FALSE(same_bits(run(shape), run({})));
 }
 
-TEST_F(ShapeTest, without_a_style_is_the_input_bit_for_bit_whatever_the_shape) {
+TEST_F(PartialStyle, without_a_style_is_the_input_bit_for_bit_whatever_the_shape) {
   Shape shape;
   shape.posture = 2;
   shape.dynamics = 0.5f;
@@ -64,7 +58,7 @@ TEST_F(ShapeTest, without_a_style_is_the_input_bit_for_bit_whatever_the_shape) {
   EXPECT_TRUE(same_bits(run(shape, {0, 0}), clip_));
 }
 
-TEST_F(ShapeTest, leaves_a_region_that_is_off_as_the_input_has_it) {
+TEST_F(PartialStyle, leaves_a_region_that_is_off_as_the_input_has_it) {
   Shape shape;
   part(shape, Region::left_arm) = part(shape, Region::right_arm) = 0;
   const Clip out = run(shape);
@@ -78,7 +72,7 @@ TEST_F(ShapeTest, leaves_a_region_that_is_off_as_the_input_has_it) {
             1 - 1e-4f);
 }
 
-TEST_F(ShapeTest, starts_no_more_at_a_step_for_arms_that_are_off_or_that_come_back) {
+TEST_F(PartialStyle, starts_no_more_at_a_step_for_arms_that_are_off_or_that_come_back) {
   // Legs and height are those of the whole style; only the lift above the floor is another.
   Shape shape;
   part(shape, Region::left_arm) = part(shape, Region::right_arm) = 0;
@@ -97,7 +91,7 @@ TEST_F(ShapeTest, starts_no_more_at_a_step_for_arms_that_are_off_or_that_come_ba
   EXPECT_LT(start(run(shape, {1, 0.5f}, 60)), 2 * start(run({})));
 }
 
-TEST_F(ShapeTest, with_no_legs_goes_where_the_input_goes) {
+TEST_F(PartialStyle, with_no_legs_goes_where_the_input_goes) {
   Shape shape;
   part(shape, Region::legs) = 0;
   shape.foot_lock = 0;
@@ -106,7 +100,7 @@ TEST_F(ShapeTest, with_no_legs_goes_where_the_input_goes) {
   EXPECT_GT(length(run({}).pose(119).translations[0] - clip_.pose(119).translations[0]), 0.01f);
 }
 
-TEST_F(ShapeTest, keeps_the_way_that_it_has_gone_where_the_legs_are_left_alone_from_now_on) {
+TEST_F(PartialStyle, keeps_the_way_that_it_has_gone_where_the_legs_are_left_alone_from_now_on) {
   Shape shape;
   part(shape, Region::legs) = 0;
   const Clip out = run(shape, {1, 0.5f}, 60);
@@ -119,7 +113,7 @@ TEST_F(ShapeTest, keeps_the_way_that_it_has_gone_where_the_legs_are_left_alone_f
   EXPECT_LT(length(beyond_input(119) - beyond_input(75)), 0.005f);
 }
 
-TEST_F(ShapeTest, with_posture_and_dynamics_at_nothing_leaves_the_pose) {
+TEST_F(PartialStyle, with_posture_and_dynamics_at_nothing_leaves_the_pose) {
   Shape shape;
   shape.posture = shape.dynamics = shape.foot_lock = 0;
   const Clip out = run(shape);
@@ -128,7 +122,7 @@ TEST_F(ShapeTest, with_posture_and_dynamics_at_nothing_leaves_the_pose) {
   }
 }
 
-TEST_F(ShapeTest, without_dynamics_changes_by_what_lasts) {
+TEST_F(PartialStyle, without_dynamics_changes_by_what_lasts) {
   // The change of a joint from frame to frame, beyond the input's own.
   const auto unrest = [&](const Clip& clip) {
     float sum = 0;
@@ -145,7 +139,7 @@ TEST_F(ShapeTest, without_dynamics_changes_by_what_lasts) {
   EXPECT_LT(unrest(run(shape)), 0.5f * unrest(run({})));
 }
 
-TEST_F(ShapeTest, styles_one_arm_and_leaves_the_other) {
+TEST_F(PartialStyle, styles_one_arm_and_leaves_the_other) {
   Shape shape;
   part(shape, Region::right_arm) = 0;
   const Clip out = run(shape), whole = run({});
@@ -154,13 +148,13 @@ TEST_F(ShapeTest, styles_one_arm_and_leaves_the_other) {
   EXPECT_GT(std::abs(dot(rotation(out, right), rotation(clip_, right))), 1 - 1e-6f);
 }
 
-TEST_F(ShapeTest, strength_is_that_of_all_styles) {
+TEST_F(PartialStyle, strength_is_that_of_all_styles) {
   Shape half;
   half.strength = 0.5f;
   EXPECT_TRUE(same_bits(run(half, {1, 0.5f}), run({}, {0.5f, 0.25f})));
 }
 
-TEST_F(ShapeTest, timing_scales_the_logarithm_of_the_rate_within_its_range) {
+TEST_F(PartialStyle, timing_scales_the_logarithm_of_the_rate_within_its_range) {
   const auto rate = [&](float timing) {
     TensorFile file = test::make_model({"old", "proud"}, 3);
     file.tensors["timing.head.0.bias"].values = {0.3f};
@@ -181,7 +175,7 @@ TEST_F(ShapeTest, timing_scales_the_logarithm_of_the_rate_within_its_range) {
   EXPECT_EQ(rate(0), 0);
 }
 
-TEST_F(ShapeTest, numbers_that_are_none_count_as_one) {
+TEST_F(PartialStyle, numbers_that_are_none_count_as_one) {
   Shape odd;
   odd.strength = odd.posture = odd.dynamics = std::nanf("");
   part(odd, Region::legs) = INFINITY;
