@@ -66,7 +66,8 @@ public sealed class Model : IDisposable {
   public IReadOnlyList<string> Gestures(string style) {
     int place = FindStyle(style);
     var names = new List<string>();
-    for (int k = 0; k < Native.panache_model_gesture_count(Handle, place); ++k) {
+    int count = Native.InfoOf(Handle, place).gestureCount;
+    for (int k = 0; k < count; ++k) {
       names.Add(Native.Text(Native.panache_model_gesture_name(Handle, place, k)));
     }
     return names;
@@ -80,9 +81,10 @@ public sealed class Model : IDisposable {
     var groups = new List<string>();
     var sides = new List<string>();
     for (int i = 0; i < Native.panache_model_style_count(Handle); ++i) {
+      Native.StyleInfo info = Native.InfoOf(Handle, i);
       styles.Add(Native.Text(Native.panache_model_style_name(Handle, i)));
-      groups.Add(Native.Text(Native.panache_model_style_group(Handle, i)));
-      sides.Add(Native.Text(Native.panache_model_style_side(Handle, i)));
+      groups.Add(Native.Text(info.group));
+      sides.Add(Native.Text(info.side));
     }
     Styles = styles;
     Groups = groups;
@@ -481,6 +483,18 @@ internal static class Native {
     return Encoding.UTF8.GetString(bytes);
   }
 
+  internal static StyleInfo InfoOf(Handle model, int style) {
+    var info = new StyleInfo { structSize = SizeOf<StyleInfo>() };
+    Check(panache_model_get_style_info(model, style, ref info));
+    return info;
+  }
+
+  [StructLayout(LayoutKind.Sequential)]
+  internal struct StyleInfo {
+    public uint structSize;
+    public int takesOff, isLearnt, hasSides, gestureCount;
+    public IntPtr description, group, words, side, thumbnail;
+  }
   [StructLayout(LayoutKind.Sequential)]
   internal struct Joint {
     public IntPtr name;
@@ -539,14 +553,11 @@ internal static class Native {
   [DllImport(Library)]
   internal static extern IntPtr panache_model_style_name(Handle model, int style);
   [DllImport(Library)]
-  internal static extern IntPtr panache_model_style_group(Handle model, int style);
-  [DllImport(Library)]
-  internal static extern IntPtr panache_model_style_side(Handle model, int style);
+  internal static extern int panache_model_get_style_info(Handle model, int style,
+                                                          ref StyleInfo info);
   [DllImport(Library)]
   internal static extern int panache_model_find_side(Handle model, int style, byte[] word,
                                                      out float side);
-  [DllImport(Library)]
-  internal static extern int panache_model_gesture_count(Handle model, int style);
   [DllImport(Library)]
   internal static extern IntPtr panache_model_gesture_name(Handle model, int style, int gesture);
   [DllImport(Library)]

@@ -130,23 +130,36 @@ PANACHE_API void panache_model_destroy(panache_model* model);
 PANACHE_API int32_t panache_model_style_count(const panache_model* model);
 /* The name of a style ("old"), valid as long as the model; NULL if the index is out of range. */
 PANACHE_API const char* panache_model_style_name(const panache_model* model, int32_t style);
-/* The group that a style is listed under ("moods"), valid as long as the model; "" if it has no
- * group (learnt styles), NULL if the index is out of range. */
-PANACHE_API const char* panache_model_style_group(const panache_model* model, int32_t style);
-/* The side that a style was captured on, as one sees it ("right leg", "to the left"), valid as long
- * as the model. It has the word left or right in it once; with the other one it says what is seen of
- * the mirrored style. "" if the model does not say, NULL if the index is out of range. */
-PANACHE_API const char* panache_model_style_side(const panache_model* model, int32_t style);
+
+/* What a model says of a style, beside its name. Texts are "" where it says nothing, and valid as
+ * long as the model. Initialise with PANACHE_STYLE_INFO. */
+typedef struct panache_style_info {
+  uint32_t struct_size;
+  int32_t takes_off;       /* 1: the model is a remover, which takes the style off. */
+  int32_t is_learnt;       /* 1: from clips, as by panache_learn(). */
+  int32_t has_sides;       /* 0: panache_character_set_side() is ignored (recipe smith2019). */
+  int32_t gesture_count;   /* Short movements that it is known by; most styles have none. */
+  const char* description; /* What it looks like, for people. */
+  const char* group;       /* What it is listed under ("moods"); learnt styles have none. */
+  const char* words;       /* Other words for it, lower case, between spaces ("elderly aged"). */
+  /* The side that was captured, as one sees it ("right leg", "to the left"). It has the word left
+   * or right in it once; with the other one it says what is seen of the mirrored style. */
+  const char* side;
+  const char* thumbnail; /* Poses from the clip that a learnt style comes from, SVG in one line. */
+} panache_style_info;
+#define PANACHE_STYLE_INFO \
+  { sizeof(panache_style_info), 0, 0, 0, 0, NULL, NULL, NULL, NULL, NULL }
+
+/* Fills the first struct_size bytes of the info. Fails if the index is out of range. */
+PANACHE_API panache_status panache_model_get_style_info(const panache_model* model, int32_t style,
+                                                        panache_style_info* info);
 /* The side of a style, for panache_character_set_side(), that a word names: "captured", "mirrored",
- * and, if panache_model_style_side() has one, "left" or "right". Fails with PANACHE_BAD_ARGUMENT for
- * another word, and if the model's styles have no sides (recipe smith2019). */
+ * and, if the info has a side, "left" or "right". Fails with PANACHE_BAD_ARGUMENT for another word,
+ * and if the model's styles have no sides. */
 PANACHE_API panache_status panache_model_find_side(const panache_model* model, int32_t style,
                                                    const char* word, float* side);
-/* Number of gestures of a style, short movements that it is known by ("glances left, 1.2 s");
- * most styles have none. 0 if the index is out of range. */
-PANACHE_API int32_t panache_model_gesture_count(const panache_model* model, int32_t style);
-/* What a gesture does and how long, different for all of a style; valid as long as the model. NULL
- * if an index is out of range. */
+/* What a gesture does and how long ("glances left, 1.2 s"), different for all of a style; valid as
+ * long as the model. NULL if an index is out of range. */
 PANACHE_API const char* panache_model_gesture_name(const panache_model* model, int32_t style,
                                                    int32_t gesture);
 /* The index of the style with this name, or else the first that other words for it ("elderly" for

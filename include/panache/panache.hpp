@@ -86,12 +86,10 @@ class Model : public Object<panache_model, panache_model_destroy> {
   const char* style_name(int style) const noexcept {
     return panache_model_style_name(get(), style);
   }
-  const char* style_group(int style) const noexcept {
-    return panache_model_style_group(get(), style);
-  }
-  // "right leg", or "" where the model does not say; NULL where no style is at that place.
-  const char* style_side(int style) const noexcept {
-    return panache_model_style_side(get(), style);
+  panache_style_info style_info(int style) const {
+    panache_style_info out = PANACHE_STYLE_INFO;
+    check(panache_model_get_style_info(get(), style, &out));
+    return out;
   }
   // The side that "captured", "mirrored", "left" or "right" names.
   float find_side(int style, const std::string& word) const {
@@ -99,7 +97,6 @@ class Model : public Object<panache_model, panache_model_destroy> {
     check(panache_model_find_side(get(), style, word.c_str(), &side));
     return side;
   }
-  int gesture_count(int style) const noexcept { return panache_model_gesture_count(get(), style); }
   // NULL where the style has no such gesture.
   const char* gesture_name(int style, int gesture) const noexcept {
     return panache_model_gesture_name(get(), style, gesture);

@@ -4,6 +4,7 @@
 #include "api/options.h"
 #include "learn/style_file.h"
 #include "style/model/side.h"
+#include "style/play/removal.h"
 
 using namespace panache;
 using namespace panache::api;
@@ -29,23 +30,40 @@ const char* panache_model_style_name(const panache_model* model, int32_t style) 
   return model->model->styles()[style].name.c_str();
 }
 
-const char* panache_model_style_group(const panache_model* model, int32_t style) {
-  if (style < 0 || style >= panache_model_style_count(model)) return nullptr;
-  return model->model->styles()[style].group.c_str();
+static Result<void> check_style(const panache_model* model, int32_t style) {
+  const int32_t count = panache_model_style_count(model);
+  if (style >= 0 && style < count) return {};
+  return Error{"there is no style " + std::to_string(style) + "; the model has " +
+               std::to_string(count)};
 }
 
-const char* panache_model_style_side(const panache_model* model, int32_t style) {
-  if (style < 0 || style >= panache_model_style_count(model)) return nullptr;
-  return model->model->styles()[style].side.c_str();
+panache_status panache_model_get_style_info(const panache_model* model, int32_t style,
+                                            panache_style_info* info) {
+  return guarded([&] {
+    Result<void> done = check_style(model, style);
+    if (done) {
+      const StyleInfo& from = model->model->styles()[style];
+      const panache_style_info found = {0,
+                                        is_remover(*model->model),
+                                        from.learnt,
+                                        check_has_sides(*model->model).ok(),
+                                        static_cast<int32_t>(model->model->gestures(style).size()),
+                                        from.description.c_str(),
+                                        from.group.c_str(),
+                                        from.words.c_str(),
+                                        from.side.c_str(),
+                                        from.thumbnail.c_str()};
+      done = write_struct(found, info, "panache_style_info");
+    }
+    return done ? PANACHE_OK : fail(PANACHE_BAD_ARGUMENT, done.error());
+  });
 }
 
 panache_status panache_model_find_side(const panache_model* model, int32_t style, const char* word,
                                        float* side) {
   return guarded([&] {
-    const int32_t count = panache_model_style_count(model);
-    if (style < 0 || style >= count) {
-      return fail(PANACHE_BAD_ARGUMENT, {"there is no style " + std::to_string(style) +
-                                         "; the model has " + std::to_string(count)});
+    if (auto good = check_style(model, style); !good) {
+      return fail(PANACHE_BAD_ARGUMENT, good.error());
     }
     const Result<float> found = find_side(*model->model, style, word);
     if (!found) return fail(PANACHE_BAD_ARGUMENT, found.error());
@@ -54,14 +72,10 @@ panache_status panache_model_find_side(const panache_model* model, int32_t style
   });
 }
 
-int32_t panache_model_gesture_count(const panache_model* model, int32_t style) {
-  if (style < 0 || style >= panache_model_style_count(model)) return 0;
-  return static_cast<int32_t>(model->model->gestures(style).size());
-}
-
 const char* panache_model_gesture_name(const panache_model* model, int32_t style, int32_t gesture) {
-  if (gesture < 0 || gesture >= panache_model_gesture_count(model, style)) return nullptr;
-  return model->model->gestures(style)[gesture].name().c_str();
+  if (style < 0 || style >= panache_model_style_count(model) || gesture < 0) return nullptr;
+  const auto& all = model->model->gestures(style);
+  return static_cast<size_t>(gesture) < all.size() ? all[gesture].name().c_str() : nullptr;
 }
 
 int32_t panache_model_person_axis_count(const panache_model* model) {
@@ -117,14 +131,12 @@ panache_status panache_styles_add(const void* model_bytes, size_t model_size,
     const std::string_view bytes(static_cast<const char*>(style_bytes), style_size);
     const Result<TensorFile> style = parse_safetensors(bytes, "the style");
     if (!style) return fail(PANACHE_BAD_STYLE, style.error());
-    const Result<StyleInfo> info = read_style_info(*style, "the style");
-    if (!info) return fail(PANACHE_BAD_STYLE, info.error());
-    if (auto free = model->check_free(info->name, replace != 0); !free) {
-      return fail(PANACHE_BAD_ARGUMENT, free.error());
-    }
     const Result<TensorFile> merged =
         add_style(model->file, kModelName, *style, "the style", replace != 0);
-    if (!merged) return fail(PANACHE_BAD_STYLE, merged.error());
+    if (!merged) {
+      const bool exists = merged.error().kind == ErrorKind::style_exists;
+      return fail(exists ? PANACHE_BAD_ARGUMENT : PANACHE_BAD_STYLE, merged.error());
+    }
     return give(*merged, out);
   });
 }

@@ -32,7 +32,8 @@ inline Result<ModelFile> ModelFile::parse(const void* bytes, size_t size) {
 
 inline Result<void> ModelFile::check_free(const std::string& style, bool replace) const {
   if (replace || !model->find_style(style)) return {};
-  return Error{"the model has a style '" + style + "' already; give another name, or replace it"};
+  return Error{"the model has a style '" + style + "' already; give another name, or replace it",
+               ErrorKind::style_exists};
 }
 
 }  // namespace panache::api

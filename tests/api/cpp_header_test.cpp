@@ -105,7 +105,7 @@ TEST_F(CppHeader, a_learnt_style_is_in_the_model) {
   const panache::Model with_it(model_with_it, size);
   EXPECT_EQ(with_it.style_count(), model.style_count() + 1);
   EXPECT_STREQ(with_it.style_name(with_it.find_style("bent")), "bent");
-  EXPECT_STREQ(with_it.style_group(with_it.find_style("bent")), "");
+  EXPECT_EQ(with_it.style_info(with_it.find_style("bent")).is_learnt, 1);
   EXPECT_EQ(learnt.report().was_tested, 1);
   EXPECT_STRNE(learnt.verdict(), "");
   EXPECT_EQ(error_of([&] { panache::Learnt(model_with_it, size, &pair, 1, "bent"); }).first,

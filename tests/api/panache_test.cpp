@@ -28,9 +28,6 @@ TEST_F(Api, knows_its_styles_by_name_and_place) {
   EXPECT_EQ(panache_model_find_style(model_, "no such style"), -1);
   EXPECT_EQ(panache_model_style_name(model_, -1), nullptr);
   EXPECT_EQ(panache_model_style_name(model_, count), nullptr);
-  EXPECT_NE(panache_model_style_group(model_, count - 1), nullptr);
-  EXPECT_EQ(panache_model_style_group(model_, -1), nullptr);
-  EXPECT_EQ(panache_model_style_group(model_, count), nullptr);
   EXPECT_EQ(panache_version(), 200);
 }
 

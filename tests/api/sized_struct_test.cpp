@@ -18,6 +18,7 @@ constexpr bool ends_without_padding(size_t last_offset, size_t last_size) {
 // What is added to a struct must not lie in what was its padding: an older program never sets that.
 #define ENDS_WITH(type, field) \
   static_assert(ends_without_padding<type>(offsetof(type, field), sizeof(type::field)))
+ENDS_WITH(panache_style_info, thumbnail);
 ENDS_WITH(panache_skeleton_options, human_joints);
 ENDS_WITH(panache_character_options, gesture_seed);
 ENDS_WITH(panache_shape, energy);

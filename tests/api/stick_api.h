@@ -117,6 +117,12 @@ class StickApi : public testing::Test {
   std::vector<panache_character*> characters_;
 };
 
+inline panache_style_info info_of(const panache_model* model, int32_t style) {
+  panache_style_info info = PANACHE_STYLE_INFO;
+  EXPECT_EQ(panache_model_get_style_info(model, style, &info), PANACHE_OK) << panache_last_error();
+  return info;
+}
+
 inline panache_report report_of(const panache_character* character) {
   panache_report report = PANACHE_REPORT;
   EXPECT_EQ(panache_character_get_report(character, &report), PANACHE_OK);

@@ -12,6 +12,7 @@ namespace {
 // Styles taken out of a model, removed and added, as bytes.
 
 using StylesApi = panache::test::StickApi;
+using panache::test::info_of;
 using panache::test::model_bytes;
 
 std::string taken(panache_bytes* bytes) {
@@ -47,10 +48,29 @@ TEST_F(StylesApi, styles_have_the_groups_of_the_model) {
   ASSERT_EQ(panache_model_create(bytes.data(), bytes.size(), &model), PANACHE_OK)
       << panache_last_error();
   for (int i = 0; i < count; ++i) {
-    EXPECT_EQ(panache_model_style_group(model, i), "group " + std::to_string(i / 2));
+    EXPECT_EQ(info_of(model, i).group, "group " + std::to_string(i / 2));
   }
-  EXPECT_EQ(panache_model_style_group(model, count), nullptr);
   panache_model_destroy(model);
+}
+
+TEST_F(StylesApi, what_the_model_says_of_a_style_is_told) {
+  const int32_t old = panache_model_find_style(model_, "elderly");
+  panache_style_info info = info_of(model_, old);
+  EXPECT_STREQ(panache_model_style_name(model_, old), "old");
+  EXPECT_NE(std::strstr(info.words, "elderly"), nullptr);
+  EXPECT_STRNE(info.description, "");
+  EXPECT_STREQ(info.thumbnail, "");
+  EXPECT_EQ(info.has_sides, 1);
+  EXPECT_EQ(info.is_learnt + info.takes_off, 0);
+  const std::string bytes = panache::test::file_bytes("remover-int8.safetensors");
+  panache_model* remover = nullptr;
+  ASSERT_EQ(panache_model_create(bytes.data(), bytes.size(), &remover), PANACHE_OK);
+  EXPECT_EQ(info_of(remover, 0).takes_off, 1);
+  panache_model_destroy(remover);
+
+  EXPECT_EQ(panache_model_get_style_info(model_, -1, &info), PANACHE_BAD_ARGUMENT);
+  info.struct_size = 0;
+  EXPECT_EQ(panache_model_get_style_info(model_, old, &info), PANACHE_BAD_ARGUMENT);
 }
 
 TEST_F(StylesApi, a_style_is_extracted_removed_and_added_again) {
@@ -77,7 +97,9 @@ TEST_F(StylesApi, what_is_wrong_is_said_and_no_bytes_are_made) {
   panache_bytes* none = nullptr;
   EXPECT_EQ(add(whole, style, 0, &none), PANACHE_BAD_ARGUMENT);
   EXPECT_STREQ(panache_last_error(),
-               "the model has a style 'old' already; give another name, or replace it");
+               "the model: has a style 'old' already; replace it or give one of the two another "
+               "name");
+  EXPECT_EQ(panache_last_error_kind(), PANACHE_ERROR_STYLE_EXISTS);
   EXPECT_EQ(add(whole, whole, 1, &none), PANACHE_BAD_STYLE);
   EXPECT_EQ(add(whole, style.substr(0, 100), 1, &none), PANACHE_BAD_STYLE);
   EXPECT_EQ(add(style, style, 1, &none), PANACHE_BAD_MODEL);
@@ -113,10 +135,9 @@ class Sides : public panache::test::StickApi {
 };
 
 TEST_F(Sides, are_named_by_words) {
-  EXPECT_STREQ(panache_model_style_side(model_, old_), "right leg");
+  EXPECT_STREQ(info_of(model_, old_).side, "right leg");
   const int32_t other = old_ == 0 ? 1 : 0;
-  EXPECT_STREQ(panache_model_style_side(model_, other), "");
-  EXPECT_EQ(panache_model_style_side(model_, -1), nullptr);
+  EXPECT_STREQ(info_of(model_, other).side, "");
   const auto side = [&](const char* word) {
     float found = 7;
     EXPECT_EQ(panache_model_find_side(model_, old_, word, &found), PANACHE_OK);
@@ -187,7 +208,7 @@ TEST_F(Sides, are_in_the_cpp_header_too) {
   const panache::Skeleton skeleton(stick_figure, STICK_JOINTS);
   panache::Character one(model, skeleton);
   panache_character* other = character("old");
-  EXPECT_STREQ(model.style_side(old_), "right leg");
+  EXPECT_STREQ(model.style_info(old_).side, "right leg");
   one.set_strength(old_, 1);
   one.set_side(old_, model.find_side(old_, "left"));
   panache_character_set_side(other, old_, -1);
@@ -261,16 +282,15 @@ class Gestures : public panache::test::StickApi {
 };
 
 TEST_F(Gestures, are_listed_by_style_and_place) {
-  const int32_t style = scared(), count = panache_model_gesture_count(model_, style);
+  const int32_t style = scared(), count = info_of(model_, style).gesture_count;
   ASSERT_GT(count, 0);
   for (int32_t k = 0; k < count; ++k) {
     EXPECT_GT(std::strlen(panache_model_gesture_name(model_, style, k)), 0u);
   }
   EXPECT_EQ(panache_model_gesture_name(model_, style, count), nullptr);
   EXPECT_EQ(panache_model_gesture_name(model_, style, -1), nullptr);
-  EXPECT_EQ(panache_model_gesture_count(model_, panache_model_find_style(model_, "robot")), 0);
+  EXPECT_EQ(info_of(model_, panache_model_find_style(model_, "robot")).gesture_count, 0);
   for (const int32_t none : {-1, panache_model_style_count(model_)}) {
-    EXPECT_EQ(panache_model_gesture_count(model_, none), 0);
     EXPECT_EQ(panache_model_gesture_name(model_, none, 0), nullptr);
   }
 }

@@ -10,7 +10,7 @@ import numpy as np
 
 from ._files import write
 from ._library import (HERE, Handle, PanacheError, check, floats, last_error, lib, number,
-                       take_bytes, utf8, whole)
+                       sized, structs, take_bytes, utf8, whole)
 
 _MODELS = HERE / 'models'
 NEUTRAL_BANK = _MODELS / 'neutral.safetensors'  # For learn() from a single clip.
@@ -51,17 +51,18 @@ class Model:
         self.styles: List[str] = [
             lib.model_style_name(self._handle.pointer, i).decode() for i in range(count)]
         """The names of the styles, in the model's order."""
-        self.groups: List[str] = [
-            lib.model_style_group(self._handle.pointer, i).decode() for i in range(count)]
+        infos = [sized(structs.StyleInfo) for _ in range(count)]
+        for i, info in enumerate(infos):
+            check(lib.model_get_style_info(self._handle.pointer, i, info))
+        self.groups: List[str] = [info.group.decode() for info in infos]
         """The group of each style, such as 'moods'; '' for learnt ones, and in models without
         groups."""
-        self.sides: List[str] = [
-            lib.model_style_side(self._handle.pointer, i).decode() for i in range(count)]
+        self.sides: List[str] = [info.side.decode() for info in infos]
         """The side that each style was captured on, as one sees it: 'right leg', 'to the left'; ''
         if the model does not say."""
         self.gestures: Dict[str, List[str]] = {
             style: [lib.model_gesture_name(self._handle.pointer, i, k).decode()
-                    for k in range(lib.model_gesture_count(self._handle.pointer, i))]
+                    for k in range(infos[i].gesture_count)]
             for i, style in enumerate(self.styles)}
         """The gestures of each style, 'glances left, 1.2 s', for `Character.trigger()`; most
         styles have none."""
