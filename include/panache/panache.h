@@ -576,8 +576,8 @@ PANACHE_API panache_status panache_styles_extract(const void* model_bytes, size_
 
 /* ---- Motion files ---------------------------------------------------------------------------- */
 
-/* Reads and writes BVH, GLB, glTF, VRM, VRMA and FBX files as the program does; AMC files are
- * written as BVH. Not in the WebAssembly module. */
+/* Reads and writes BVH, GLB, glTF, VRM, VRMA and FBX files as the program does (FBX not in the
+ * WebAssembly module); AMC files are written as BVH. */
 
 /* A whole motion file: joints, motions, and everything else that is kept when it is written again.
  * Immutable. */
@@ -654,7 +654,8 @@ PANACHE_API panache_status panache_motion_file_write(const panache_motion_file* 
 
 /* ---- Training samples ----------------------------------------------------------------------- */
 
-/* Training data for the networks of recipe panache, for training of your own. */
+/* Training data for the networks of recipe panache, for training of your own. Not in the WebAssembly
+ * module. */
 typedef struct panache_samples panache_samples;
 
 #define PANACHE_WINDOW_SIZE 396 /* 6 poses, newest first, of 66 features: docs/conventions.md. */

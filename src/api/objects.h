@@ -38,7 +38,7 @@ struct panache_learnt {
   std::string warnings;
 };
 struct panache_motion_file {
-  std::unique_ptr<panache::MotionFile> file;
+  std::shared_ptr<const panache::MotionFile> file;
   std::string path;
   std::vector<std::string> names;  // Names of its motions.
   std::vector<char> moves;         // Whether each motion moves the humanoid.

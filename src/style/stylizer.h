@@ -38,8 +38,10 @@ class Stylizer {
   // model's persons, see PersonNumbers; clamped to -kMaxPerson to kMaxPerson, and eased in. reset()
   // keeps it. Numbers that are not finite and, in a model without persons, all are ignored.
   void set_person(std::span<const float> numbers) noexcept { source_.set_person(numbers); }
-  // As set.
+  // As set. Sides are [styles].
   const PersonNumbers& person() const noexcept { return source_.person(); }
+  const Shape& shape() const noexcept { return source_.shape(); }
+  const std::vector<float>& sides() const noexcept { return source_.sides(); }
 
   // See StylizerOptions::gesture_rate; from the next step on.
   void set_gesture_rate(float rate) noexcept { source_.set_gesture_rate(rate); }

@@ -30,7 +30,7 @@ float gate(float limit, float limit_of_remover, int removed) {
       Player::create(model_of(limit, false), Source::create(std::move(file), 0).value()).value();
   EXPECT_TRUE(player->use_remover(model_of(limit_of_remover, true)).ok());
   player->set_removed(removed);
-  player->strengths()[0] = 1;
+  player->character()->strengths[0] = 1;
   for (int f = 0; f < 30; ++f) player->step(1.0 / 30);
   return player->gate();
 }

@@ -1,15 +1,10 @@
 // Styles the caller's own poses: panache.h for JavaScript.
 
-import {
-  PanacheError, checkFinite, checkInteger, checkJoints, checkPose, inUse, optionsOf, unexpected,
-} from './checks.js';
+import { PanacheError, checkInteger, checkJoints, checkPose, inUse, optionsOf, unexpected } from './checks.js';
+import { kCharacterOptions, kHumanJoint, kInputPose, kJoint, kReport, kSkeletonOptions } from './header.js';
 import type { Panache } from './index.js';
 import { removedIndex, removerHandle, type Remover } from './remover.js';
-import { kCharacterOptions, kHumanJoint, kInputPose, kJoint, kReport, kSkeletonOptions } from './structs.js';
-import {
-  checkTriggered, kStylizing, personNumbers, sideNumber, styleIndex, writeShape,
-  type Person, type Shape, type Side, type Style, type StylizingOptions,
-} from './styling.js';
+import { Styled, kStylizing, type Style, type StylizingOptions } from './styling.js';
 
 /** One joint of your skeleton. */
 export interface Joint {
@@ -68,8 +63,7 @@ export class Skeleton {
       const all = (key: keyof Pose) => arena.copy(
         Float32Array.from(poses.flatMap((pose) => Array.from(pose[key]))));
       const told = arena.write(kSkeletonOptions, {
-        structSize: kSkeletonOptions.size, metresPerUnit,
-        upAxis: upAxis === null ? 0 : arena.text(upAxis),
+        metresPerUnit, upAxis: upAxis === null ? 0 : arena.text(upAxis),
         rotations: all('rotations'), translations: all('translations'), poseCount: poses.length,
         humanJointCount: map.length, humanJoints: arena.array(kHumanJoint, map),
       });
@@ -119,7 +113,7 @@ export interface Report {
 }
 
 /** One of your characters in motion. */
-export class Character {
+export class Character extends Styled {
   #panache: Panache; #joints: number; #styles: readonly Style[]; #remover: Remover | null;
   #character: number; #block: number; #pose: number;
 
@@ -127,6 +121,7 @@ export class Character {
     return new Character(panache, skeleton, options);
   }
   private constructor(panache: Panache, skeleton: Skeleton, options: CharacterOptions) {
+    super();
     const { remover, ...told } = optionsOf<Required<CharacterOptions>>(
       { ...kStylizing, skipCycles: false, maxLag: 0, maxLead: 0, remover: null }, options);
     const { _module: module } = panache;
@@ -135,8 +130,8 @@ export class Character {
     this.#styles = panache.styles;  // A character keeps the model that it was created with.
     this.#remover = remover;
     this.#character = module.use((arena) => {
-      const at = arena.write(kCharacterOptions, { structSize: kCharacterOptions.size, ...told,
-        remover: remover ? removerHandle(panache, remover) : 0 });
+      const at = arena.write(kCharacterOptions,
+        { ...told, remover: remover ? removerHandle(panache, remover) : 0 });
       return arena.create((out) => module.wasm.panache_character_create(
         panache._model(), skeleton._handleFor(panache), at, out));
     });
@@ -150,46 +145,11 @@ export class Character {
     module.words(this.#pose, 2).set([this.#block, this.#block + 16 * this.#joints]);
   }
 
-  /** 0 is neutral, 1 the style as captured, above 1 exaggerates it (-4 to 4). Eased in. Throws if
-   * the model has no such style, or the strength is not finite. */
-  setStrength(style: string, strength: number): void {
-    const character = this.#handle(), index = styleIndex(this.#styles, style);
-    this.#wasm.panache_character_set_strength(
-      character, index, checkFinite(strength, `strength of '${style}'`));
-  }
-  /** Initially 'captured'. Eased in. Throws if the model has no such style or the style no such side. */
-  setSide(style: string, side: Side): void {
-    const character = this.#handle(), index = styleIndex(this.#styles, style);
-    this.#wasm.panache_character_set_side(character, index, sideNumber(side, this.#styles[index]));
-  }
-  /** Moves as somebody else does, in addition to the styles; initially null, nobody. `variety`: how
-   * far from the mean person, 0 to 2; 1, the default, is as people differ. Eased in. Throws if the
-   * model has no persons. */
-  setPerson(person: Person, variety = 1): void {
-    const character = this.#handle();
-    const [seed, amount] = personNumbers(this.#panache._module, person, variety);
-    if (amount === 0 && this.#panache.personAxes.length === 0) return;
-    this.#panache._module.use((arena) => arena.check(
-      this.#wasm.panache_character_set_person(character, seed, amount)));
-  }
-  /** Plays a gesture of a style (its index in `gestures`; 0) at the style's strength. Waits up to
-   * 3 s until no other gesture plays and a foot is on the floor; otherwise drops it. Throws if the
-   * style has no such gesture. */
-  trigger(style: string, gesture = 0): void {
-    const character = this.#handle(), index = styleIndex(this.#styles, style);
-    checkTriggered(this.#wasm.panache_character_trigger(
-      character, index, checkInteger(gesture, 'gesture')), this.#styles[index], gesture);
-  }
   /** Removes a style of the remover from the input before styles are added. Keeps the input's
    * tempo. null: none, the default. Eased in. Throws if the character has no remover. */
   setRemoved(style: string | null): void {
     this.#wasm.panache_character_set_removed(
       this.#handle(), removedIndex(this.#remover, style, 'character'));
-  }
-  /** Missing amounts are 1. Eased in. */
-  setShape(shape: Partial<Shape>): void {
-    this.#panache._module.use((arena) => arena.check(this.#wasm.panache_character_set_shape(
-      this.#handle(), writeShape(arena, shape))));
   }
 
   /** Styles the next pose, `seconds` after the last. Input and output may be the same arrays. */
@@ -209,7 +169,7 @@ export class Character {
 
   report(): Report {
     return this.#panache._module.use((arena) => {
-      const at = arena.write(kReport, { structSize: kReport.size });
+      const at = arena.write(kReport);
       arena.check(this.#wasm.panache_character_get_report(this.#handle(), at));
       const { structSize, ...report } = arena.read(kReport, at);
       return report as unknown as Report;
@@ -225,4 +185,7 @@ export class Character {
   }
   get #wasm() { return this.#panache._module.wasm; }
   #handle() { return inUse(this.#character, 'character'); }
+  /** @internal */ get _panache() { return this.#panache; }
+  /** @internal */ get _styles() { return this.#styles; }
+  /** @internal */ get _character() { return this.#handle(); }
 }

@@ -1,19 +1,26 @@
 // Checks arguments before they reach the module. Messages say what was expected and what was found.
 
 import type { Clip, Joint, Pose } from './character.js';
+import type { kErrorKinds } from './header.js';
 
-// In the order of panache_error_kind.
-export const kErrorKinds = [
-  'other', 'fileExists', 'rateNeeded', 'notHumanoid', 'unknownStyle', 'noStyles', 'styleExists',
-  'isModel', 'isStyleFile', 'styleOfAnother', 'notSafetensors', 'modelCannotLearn',
-  'otherSkeletons', 'loopOpen', 'loopStrengths', 'badStyleName',
-] as const;
 /** The kind of an error, for programs that handle it; most are 'other'. */
 export type ErrorKind = typeof kErrorKinds[number];
 
 /** Bad input; the message says where, what was expected and what was found. */
 export class PanacheError extends Error {
   constructor(message: string, readonly kind: ErrorKind = 'other') { super(message); }
+}
+
+/** Returns work(); errors about the module's `argument` are about `name` instead. */
+export function named<Out>(argument: string, name: string, work: () => Out): Out {
+  try {
+    return work();
+  } catch (error) {
+    if (error instanceof PanacheError && error.message.startsWith(`${argument}: `)) {
+      error.message = name + error.message.slice(argument.length);
+    }
+    throw error;
+  }
 }
 
 function describe(value: unknown) {

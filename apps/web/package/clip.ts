@@ -2,10 +2,10 @@
 
 import type { Clip, Skeleton } from './character.js';
 import { PanacheError, checkKeys, optionsOf, unexpected } from './checks.js';
+import { kStrengthKey, kStrengthTrack, kStylizeOptions } from './header.js';
 import type { Panache } from './index.js';
 import type { Arena } from './memory.js';
 import { removerHandle, writeClip, type Remover } from './remover.js';
-import { kStrengthKey, kStrengthTrack, kStylizeOptions } from './structs.js';
 import {
   kStylizing, personNumbers, sideNumber, styleIndex, timingNumber, writeShape,
   type Person, type Shape, type Side, type StylizingOptions, type Timing,
@@ -99,7 +99,7 @@ export function stylizeClip(panache: Panache, skeleton: Skeleton, clip: Clip, st
     const tracks = Object.entries(strengths).map(
       ([name, strength]) => writeTrack(arena, panache, name, strength));
     const how = arena.write(kStylizeOptions, {
-      structSize: kStylizeOptions.size, ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
+      ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
       shape: writeShape(arena, shape), loop: kLoops.indexOf(loop),
       ...removalOf(panache, remover, remove), sides: writeSides(arena, panache, sides),
       person: writePerson(arena, panache, person, variety),

@@ -2,12 +2,12 @@
 
 import { Character, Skeleton } from './character.js';
 import type { CharacterOptions, Clip, Joint, SkeletonOptions } from './character.js';
-import { PanacheError, checkBytes, inUse } from './checks.js';
+import { PanacheError, checkBytes, inUse, named } from './checks.js';
 import { stylizeClip, type StyledClip, type StylizeOptions } from './clip.js';
-import { Module, type Exports } from './memory.js';
+import { Module, type Arena, type Exports } from './memory.js';
 import { MotionFile, Walk, type Player } from './player.js';
 import { Remover } from './remover.js';
-import type { Style } from './styling.js';
+import { createModel, stylesOf, type Style } from './styling.js';
 
 export type { CharacterOptions, Clip, Joint, Pose, Report, SkeletonOptions } from './character.js';
 export type { ErrorKind } from './checks.js';
@@ -128,16 +128,13 @@ export class Panache {
    * theirs. Error messages begin with `name`. */
   setModel(bytes: ArrayBuffer | Uint8Array, name = 'the model'): void {
     inUse(this.#live, 'Panache');
-    checkBytes(bytes, name);
-    const wasm = this.#wasm, module = this.#module;
-    const model = module.use((arena) => module.checked(wasm.panache_page_model_create(
-      arena.copy(bytes), bytes.byteLength, arena.text(name))));
+    const wasm = this.#wasm, module = this.#module, model = createModel(module, bytes, name);
     // Players keep what they need of their old model.
     const old = this.#model;
     this.#model = model;
     this.#bytes = bytes;
     Object.assign(this, {  // Read-only to callers.
-      styles: module.json<Style[]>(wasm.panache_page_styles(model)),
+      styles: stylesOf(module, model),
       personAxes: Array.from({ length: wasm.panache_model_person_axis_count(model) },
         (_, axis) => module.text(wasm.panache_model_person_axis_name(model, axis))),
     } satisfies Partial<Panache>);
@@ -159,17 +156,22 @@ export class Panache {
       const out = arena.zeros(4);
       const bytes = module.take(this.#wasm.panache_page_learn(
         arena.copy(this.#bytes), this.#bytes.byteLength,
-        before?.file._handleFor(this) ?? 0, before?.clip ?? 0, arena.text(before?.file.name ?? ''),
+        before?.file._handleFor(this) ?? 0, before?.clip ?? 0,
         bank ? arena.copy(bank) : 0, bank?.byteLength ?? 0, styled.file._handleFor(this),
-        styled.clip ?? 0, arena.text(styled.file.name), arena.text(name), out));
+        styled.clip ?? 0, arena.text(name), out));
       return { bytes, report: module.json<LearnReport>(module.words(out, 1)[0]) };
     });
   }
   /** Whether the bytes are a style file, and not a model. */
   isStyle(bytes: ArrayBuffer | Uint8Array): boolean {
     checkBytes(bytes, 'the style');
-    return this.#module.use((arena) =>
-      this.#wasm.panache_page_is_style(arena.copy(bytes), bytes.byteLength) !== 0);
+    try {
+      this.#wasm.panache_model_destroy(createModel(this.#module, bytes, ''));
+      return false;
+    } catch (error) {
+      if (!(error instanceof PanacheError)) throw error;
+      return error.kind === 'isStyleFile';
+    }
   }
   /** Adds the style of a style file to the current model, as in setModel(). */
   addStyle(bytes: ArrayBuffer | Uint8Array, options: {
@@ -179,25 +181,25 @@ export class Panache {
     replace?: boolean;
   } = {}): void {
     const { name = 'the style', replace = false } = options;
-    this._model();
     checkBytes(bytes, name);
-    this.setModel(this.#module.use((arena) => this.#module.take(
-      this.#wasm.panache_page_style_add(arena.copy(this.#bytes), this.#bytes.byteLength,
-        arena.copy(bytes), bytes.byteLength, arena.text(name), replace ? 1 : 0))));
+    this.setModel(named('the style', name, () => this.#changed((model, size, arena, out) =>
+      this.#wasm.panache_styles_add(
+        model, size, arena.copy(bytes), bytes.byteLength, replace ? 1 : 0, out))));
   }
   /** The bytes of a style file. */
   extractStyle(name: string): Uint8Array {
-    return this.#withStyle(name, (bytes, size, style, out) =>
-      this.#wasm.panache_styles_extract(bytes, size, style, out));
+    return this.#changed((model, size, arena, out) =>
+      this.#wasm.panache_styles_extract(model, size, arena.text(name), out));
   }
   removeStyle(name: string): void {
-    this.setModel(this.#withStyle(name, (bytes, size, style, out) =>
-      this.#wasm.panache_styles_remove(bytes, size, style, out)));
+    this.setModel(this.#changed((model, size, arena, out) =>
+      this.#wasm.panache_styles_remove(model, size, arena.text(name), out)));
   }
-  #withStyle(name: string, change: (bytes: number, size: number, style: number, out: number) => number) {
+  // The bytes that a call makes of those of the model.
+  #changed(call: (model: number, size: number, arena: Arena, out: number) => number) {
     this._model();
-    return this.#module.use((arena) => this.#module.take(arena.create((out) => change(
-      arena.copy(this.#bytes), this.#bytes.byteLength, arena.text(name), out))));
+    return this.#module.use((arena) => this.#module.take(arena.create((out) =>
+      call(arena.copy(this.#bytes), this.#bytes.byteLength, arena, out))));
   }
 
   /** Reads a .bvh, .glb, .gltf (self-contained), .vrm or .vrma, by the extension of `name`. */

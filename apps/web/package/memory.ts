@@ -1,40 +1,27 @@
-// The WebAssembly module and its memory: temporary allocations for calls, and the layout of the
-// structs of panache.h.
+// The WebAssembly module and its memory: temporary allocations for calls, and the structs of
+// panache.h.
 
-import { PanacheError, kErrorKinds } from './checks.js';
+import { PanacheError } from './checks.js';
+import { kErrorKinds, type Functions } from './header.js';
 
-/** What the module exports. Pointers and handles are numbers; an interface test counts arguments. */
-export interface Exports {
+/** What the module exports. Pointers and handles are numbers. */
+export interface Exports extends Functions {
   memory: WebAssembly.Memory;
   malloc(size: number): number;
   free(at: number): void;
   _initialize(): void;
-  [call: `panache_${string}`]: (...numbers: number[]) => number;
 }
 
 const kAccess = { i32: 'Int32', f32: 'Float32', f64: 'Float64' } as const;
 type Kind = keyof typeof kAccess;
 const sizeOf = (type: Kind) => (type === 'f64' ? 8 : 4);
 
-export interface Struct<Name extends string> {
-  places: Map<Name, { at: number; type: Kind; count: number }>;
-  size: number;
-}
 type Values<Name extends string> = Partial<Record<Name, number | boolean | ArrayLike<number>>>;
-
-/** Lays out a struct from its fields, in order: their types, or [type, count]. */
-export function struct<Name extends string>(
-  fields: Record<Name, Kind | [type: Kind, count: number]>): Struct<Name> {
-  let size = 0, align = 1;
-  const places: Struct<Name>['places'] = new Map();
-  for (const name in fields) {
-    const [type, count] = [fields[name], 1].flat() as [Kind, number];
-    const at = Math.ceil(size / sizeOf(type)) * sizeOf(type);
-    places.set(name, { at, type, count });
-    size = at + sizeOf(type) * count;
-    align = Math.max(align, sizeOf(type));
-  }
-  return { places, size: Math.ceil(size / align) * align };
+/** A struct of header.ts. */
+interface Struct<Name extends string> {
+  size: number;
+  initial: Values<Name>;
+  places: Record<Name, readonly [at: number, type: Kind, count: number]>;
 }
 
 export class Module {
@@ -42,14 +29,14 @@ export class Module {
 
   /** Returns work(arena) and frees what it allocated. */
   use<Out>(work: (arena: Arena) => Out): Out {
-    const blocks: number[] = [];
+    const ends: (() => void)[] = [];
     try {
-      return work(new Arena(this, blocks));
+      return work(new Arena(this, ends));
     } catch (error) {
       if (!(error instanceof WebAssembly.RuntimeError)) throw error;
       throw new PanacheError('there is not enough memory for this file; reload the page');
     } finally {
-      for (const block of blocks) this.wasm.free(block);
+      for (const end of ends) end();
     }
   }
   /** A view; valid until the next call into the module. */
@@ -86,12 +73,12 @@ export class Module {
 
 /** Allocates memory for the duration of a call. */
 export class Arena {
-  constructor(private module: Module, private blocks: number[]) {}
+  constructor(private module: Module, private ends: (() => void)[]) {}
 
   allocate(size: number): number {
     const at = this.module.wasm.malloc(Math.max(size, 1));
     if (!at) throw new PanacheError('there is not enough memory for this file');
-    this.blocks.push(at);
+    this.ends.push(() => this.module.wasm.free(at));
     return at;
   }
   zeros(size: number): number {
@@ -107,12 +94,12 @@ export class Arena {
   }
   text(text: string): number { return this.copy(new TextEncoder().encode(text + '\0')); }
 
-  /** Writes `values` to the struct at `at`; by default a new one. */
-  write<Name extends string>(
-    { places, size }: Struct<Name>, values: Values<Name>, at = this.zeros(size)): number {
+  /** Writes `values`, and initial values of others, to the struct at `at`; by default a new one. */
+  write<Name extends string>({ places, size, initial }: Struct<Name>, values: Values<Name> = {},
+    at = this.zeros(size)): number {
     const view = new DataView(this.buffer, at, size);
-    for (const [name, value] of Object.entries(values)) {
-      const { at: offset, type, count } = places.get(name as Name)!;
+    for (const [name, value] of Object.entries({ ...initial, ...values })) {
+      const [offset, type, count] = places[name as Name];
       const numbers = (count === 1 ? [value] : value) as ArrayLike<number | boolean>;
       for (let i = 0; i < count; ++i) {
         view[`set${kAccess[type]}`](offset + i * sizeOf(type), +numbers[i], true);
@@ -127,20 +114,24 @@ export class Arena {
     return at;
   }
   /** Returns the values of a struct by name, as write() takes them. */
-  read<Name extends string>({ places, size }: Struct<Name>, at: number): Record<Name, unknown> {
+  read<Name extends string>({ places, size }: Struct<Name>, at: number): Record<Name, number> {
     const view = new DataView(this.buffer, at, size);
-    return Object.fromEntries(Array.from(places, ([name, { at: offset, type, count }]) => {
-      const numbers = Array.from({ length: count },
-        (_, i) => view[`get${kAccess[type]}`](offset + i * sizeOf(type), true));
-      return [name, count === 1 ? numbers[0] : numbers];
-    })) as Record<Name, unknown>;
+    return Object.fromEntries(Object.entries<Struct<Name>['places'][Name]>(places).map(
+      ([name, [offset, type, count]]) => {
+        const numbers = Array.from({ length: count },
+          (_, i) => view[`get${kAccess[type]}`](offset + i * sizeOf(type), true));
+        return [name, count === 1 ? numbers[0] : numbers];
+      })) as Record<Name, number>;
   }
 
-  /** Returns the handle created by a function of panache.h that returns a status. */
-  create(call: (out: number) => number): number {
+  /** Returns the handle created by a function of panache.h that returns a status. `destroy` ends it
+   * with the arena. */
+  create(call: (out: number) => number, destroy?: (handle: number) => void): number {
     const out = this.zeros(4);
     this.check(call(out));
-    return this.module.words(out, 1)[0];
+    const [handle] = this.module.words(out, 1);
+    if (destroy) this.ends.push(() => destroy(handle));
+    return handle;
   }
   check(status: number): void {
     if (status !== 0) throw this.module.lastError();

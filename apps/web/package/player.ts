@@ -1,14 +1,11 @@
 // Files with motion, and what plays: the walker and their clips.
 
-import {
-  PanacheError, checkBytes, checkFinite, checkInteger, checkKeys, inUse, unexpected,
-} from './checks.js';
+import { PanacheError, checkBytes, checkFinite, checkKeys, inUse, unexpected } from './checks.js';
+import { kClip, kClipEdit, kJoint } from './header.js';
 import type { Panache } from './index.js';
+import type { Arena } from './memory.js';
 import { removedIndex, removerHandle, type Remover } from './remover.js';
-import {
-  checkTriggered, personNumbers, sideNumber, styleIndex, timingNumber, writeShape,
-  type Person, type Shape, type Side, type Timing,
-} from './styling.js';
+import { Styled, styleIndex, timingNumber, type Person, type Shape, type Timing } from './styling.js';
 
 export interface ClipInfo {
   name: string;
@@ -20,8 +17,7 @@ export interface ClipInfo {
   /** Whether it moves a humanoid joint; animations of morph weights or props do not. */
   moves: boolean;
 }
-// What the module tells.
-type Description = Pick<MotionFile, 'joints' | 'notes'> & { clips: Omit<ClipInfo, 'seconds'>[] };
+const kReplace = 0;  // PANACHE_REPLACE
 
 export class MotionFile {
   readonly name: string;
@@ -48,21 +44,53 @@ export class MotionFile {
         (this.extension ? `the extension '${this.extension}'` : 'no extension'));
     }
     checkBytes(bytes, name);
-    const { _module: module } = panache;
+    const { _module: module, _module: { wasm } } = panache;
     this.#panache = panache;
-    this.#file = module.use((arena) => module.checked(module.wasm.panache_page_file_create(
-      arena.copy(bytes), bytes.byteLength,
-      arena.text(name.slice(0, name.length - this.extension.length) + this.extension), fps)));
-    const { clips, joints, notes } = module.use((arena) => module.json<Description>(
-      module.wasm.panache_page_file_describe(this.#file, arena.text(name))));
-    this.joints = joints;
-    this.notes = notes;
-    this.clips = clips.map((clip) => ({ ...clip, seconds: Math.max(0, clip.frames - 1) * clip.frameTime }));
+    const file = this.#file = module.use((arena) => {
+      const at = arena.copy(bytes), size = bytes.byteLength, path = arena.text(name);
+      return arena.create((out) => (fps
+        ? wasm.panache_motion_file_create_at_rate(at, size, path, fps, out)
+        : wasm.panache_motion_file_create(at, size, path, out)));
+    });
+    this.joints = module.use((arena) => {
+      const at = arena.write(kJoint);
+      return Array.from({ length: wasm.panache_motion_file_joint_count(file) }, (_, i) => {
+        wasm.panache_motion_file_get_joint(file, i, at);
+        const joint = arena.read(kJoint, at);
+        return { name: module.text(joint.name), parent: joint.parent };
+      });
+    });
+    this.clips = module.use((arena) => {
+      const at = arena.write(kClip);
+      return Array.from({ length: wasm.panache_motion_file_clip_count(file) }, (_, i) => {
+        arena.check(wasm.panache_motion_file_get_clip(file, i, at));
+        const { frameCount: frames, frameSeconds: frameTime } = arena.read(kClip, at);
+        return { name: module.text(wasm.panache_motion_file_clip_name(file, i)), frames, frameTime,
+          seconds: Math.max(0, frames - 1) * frameTime,
+          moves: wasm.panache_motion_file_clip_moves(file, i) !== 0 };
+      });
+    });
+    const notes = module.use((arena) => module.take(
+      arena.create((out) => wasm.panache_motion_file_get_notes(file, out))));
+    this.notes = new TextDecoder().decode(notes).split('\n').filter(Boolean);
   }
 
   /** @internal */ _handleFor(panache: Panache): number {
     if (panache === this.#panache) return inUse(this.#file, 'file');
     throw new PanacheError(`${this.name}: this file is open in another Panache; open it with openFile()`);
+  }
+
+  #skeleton(arena: Arena, clip: number) {
+    const { _module: { wasm } } = this.#panache;
+    return arena.create((out) => wasm.panache_motion_file_create_skeleton(this.#file, clip, 0, out),
+      wasm.panache_skeleton_destroy);
+  }
+  /** @internal A motion as a panache_clip, valid as long as the arena; without motions the rest pose. */
+  _clip(panache: Panache, arena: Arena, clip: number): number {
+    const file = this._handleFor(panache), which = this.clips.length ? clip : -1;
+    const at = arena.write(kClip);
+    arena.check(panache._module.wasm.panache_motion_file_get_clip(file, which, at));
+    return arena.write(kClip, { skeleton: this.#skeleton(arena, which) }, at);
   }
 
   /** Throws if the skeleton is not a humanoid. The file may be freed before the player. */
@@ -75,13 +103,27 @@ export class MotionFile {
 
   /** The bytes of the character's file, with its motions replaced by this one, retargeted. */
   putOn(character: MotionFile, clip = 0): Uint8Array {
-    const { _module: module } = this.#panache;
-    return module.take(module.wasm.panache_page_file_put_on(
-      this._handleFor(this.#panache), clip, character._handleFor(this.#panache)));
+    const { _module: module, _module: { wasm } } = this.#panache;
+    const onto = character._handleFor(this.#panache);
+    return module.use((arena) => {
+      const from = this._clip(this.#panache, arena, clip);
+      const put = arena.create(
+        (out) => wasm.panache_retarget_clip(from, character.#skeleton(arena, -1), 0, out),
+        wasm.panache_styled_clip_destroy);
+      const edit = arena.write(kClipEdit, {
+        clip: -1, name: arena.text(this.clips[clip]?.name || 'motion'),
+        framesFrameCount: wasm.panache_styled_clip_frame_count(put),
+        framesFrameSeconds: arena.read(kClip, from).frameSeconds,
+        framesRotations: wasm.panache_styled_clip_rotations(put),
+        framesTranslations: wasm.panache_styled_clip_translations(put),
+      });
+      return module.take(arena.create(
+        (out) => wasm.panache_motion_file_write(onto, edit, 1, kReplace, out)));
+    });
   }
 
   free(): void {
-    this.#panache._module.wasm.panache_page_file_free(this.#file);
+    this.#panache._module.wasm.panache_motion_file_destroy(this.#file);
     this.#file = 0;
   }
 }
@@ -106,10 +148,12 @@ export interface Body {
 }
 
 /** A source of motion and the character that it moves. */
-export class Player {
+export class Player extends Styled {
   #panache: Panache; #player: number; #extension: string; #remover: Remover | null = null;
+  #person: [Person, number] = [null, 1]; #shape: Partial<Shape> = {};
 
   /** @internal */ constructor(panache: Panache, player: number, extension: string) {
+    super();
     this.#panache = panache;
     this.#player = player;
     this.#extension = extension;
@@ -118,31 +162,29 @@ export class Player {
   /** @internal */ _useModel(): void {
     this.#panache._module.use((arena) => arena.check(
       this._wasm.panache_page_player_use_model(this._player, this.#panache._model())));
+    this.setShape(this.#shape);
+    this.setPerson(...this.#person);
   }
-  /** @internal */ protected get _panache() { return this.#panache; }
+  /** @internal */ get _panache() { return this.#panache; }
+  /** @internal */ get _styles() { return this.#panache.styles; }
+  /** @internal 0: there is no model yet. */ get _character() {
+    return this._wasm.panache_page_player_character(this._player);
+  }
   /** @internal */ protected get _wasm() { return this.#panache._module.wasm; }
   /** @internal */ protected get _player() { return inUse(this.#player, 'player'); }
+  /** @internal */ protected get _facts() {
+    return this.#panache._module.copy(
+      Float64Array, this._wasm.panache_page_player_facts(this._player), 16);
+  }
 
-  /** Like the methods of Character. */
-  setStrength(style: string, strength: number): void {
-    const index = styleIndex(this.#panache.styles, style);
-    checkFinite(strength, `strength of '${style}'`);
-    const at = this._wasm.panache_page_player_strengths(this._player);
-    this.#panache._module.floats(at, index + 1)[index] = strength;
-  }
-  setSide(style: string, side: Side): void {
-    const index = styleIndex(this.#panache.styles, style);
-    this._wasm.panache_page_player_set_side(
-      this._player, index, sideNumber(side, this.#panache.styles[index]));
-  }
   /** Nobody in a model without persons. */
-  setPerson(person: Person, variety = 1): void {
-    const [seed, amount] = personNumbers(this.#panache._module, person, variety);
-    this._wasm.panache_page_player_set_person(this._player, seed, amount);
+  override setPerson(person: Person, variety = 1): void {
+    this.#person = [person, variety];
+    if (this.#panache.personAxes.length) super.setPerson(person, variety);
   }
-  setShape(shape: Partial<Shape>): void {
-    this.#panache._module.use((arena) => arena.check(
-      this._wasm.panache_page_player_set_shape(this._player, writeShape(arena, shape))));
+  override setShape(shape: Partial<Shape>): void {
+    this.#shape = shape;
+    if (this._character) super.setShape(shape);
   }
   /** See StylizingOptions.gestureRate; 1 at first. */
   setGestureRate(rate: number): void {
@@ -150,11 +192,6 @@ export class Player {
       throw unexpected('gesture rate', 'a number from 0 to 10', rate);
     }
     this._wasm.panache_page_player_set_gesture_rate(this._player, rate);
-  }
-  trigger(style: string, gesture = 0): void {
-    const index = styleIndex(this.#panache.styles, style);
-    checkTriggered(this._wasm.panache_page_player_trigger(
-      this._player, index, checkInteger(gesture, 'gesture')), this.#panache.styles[index], gesture);
   }
   /** Sets the model for setRemoved(); the motion continues. */
   useRemover(remover: Remover): void {
@@ -177,24 +214,21 @@ export class Player {
   measure(count: number): void { this._wasm.panache_page_player_measure(this._player, count); }
 
   /** Input seconds per output second: the tempo of the style, 1 where the timing is off. */
-  get rate(): number { return this._wasm.panache_page_player_rate(this._player); }
+  get rate(): number { return this._facts[1]; }
   /** How much of the styles' change is applied: 1 if the input resembles the training motion; 0 if
    * it does not, so that styles only add their mean posture. */
-  get gate(): number { return this._wasm.panache_page_player_gate(this._player); }
+  get gate(): number { return this._facts[2]; }
   /** Probability that each foot is planted: left, right. */
-  get contacts(): number[] {
-    return [0, 1].map((foot) => this._wasm.panache_page_player_contact(this._player, foot));
-  }
+  get contacts(): number[] { return [...this._facts.subarray(3, 5)]; }
   /** View, [joints][7]: local rotation x y z w and translation, in the file's units and axes. */
   pose(which: 'input' | 'styled', joints: number): Float32Array {
-    const at = this._wasm.panache_page_player_pose(this._player, which === 'styled' ? 1 : 0);
-    return this.#panache._module.floats(at, joints * kPartNumbers);
+    return this.#panache._module.floats(this._facts[which === 'styled' ? 13 : 12], joints * kPartNumbers);
   }
   /** View, [21][7]: world position (metres, Y up) and orientation x y z w of each human joint. The
    * orientation is relative to the T-pose: left arm along +x, legs along -y, feet along +z. */
   parts(which: 'input' | 'styled'): Float32Array {
-    const at = this._wasm.panache_page_player_parts(this._player, which === 'styled' ? 1 : 0);
-    return this.#panache._module.floats(at, kHumanJoints * kPartNumbers);
+    return this.#panache._module.floats(this._facts[which === 'styled' ? 15 : 14],
+      kHumanJoints * kPartNumbers);
   }
   /** A body with the rig's proportions; takes some tenths of a second the first time. */
   get body(): Body { return this.#makeBody(0); }
@@ -218,12 +252,8 @@ export class Player {
   }
   /** world = scale * rotate(toYUp, point in the file) - {0, floor, 0}. */
   get placement(): { toYUp: number[]; scale: number; floor: number } {
-    return this.#panache._module.use((arena) => {
-      const at = arena.allocate(24);
-      this._wasm.panache_page_player_placement(this._player, at);
-      const [x, y, z, w, scale, floor] = this.#panache._module.floats(at, 6);
-      return { toYUp: [x, y, z, w], scale, floor };
-    });
+    const [x, y, z, w, scale, floor] = this._facts.subarray(6);
+    return { toYUp: [x, y, z, w], scale, floor };
   }
 
   /** A file with this extension (".bvh", ".glb", ".vrma", or that of the file played): the whole
@@ -261,7 +291,7 @@ export class Playback extends Player {
       this._player, index, arena.copy(Float64Array.from(keys.flat())), keys.length));
   }
   set loop(loop: boolean) { this._wasm.panache_page_player_loop(this._player, loop ? 1 : 0); }
-  get seconds(): number { return this._wasm.panache_page_player_seconds(this._player); }
+  get seconds(): number { return this._facts[0]; }
   /** The first frame that plays, from 0; earlier frames of the file are a reference pose. */
-  get firstFrame(): number { return this._wasm.panache_page_player_first_frame(this._player); }
+  get firstFrame(): number { return this._facts[5]; }
 }

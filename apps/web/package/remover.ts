@@ -1,12 +1,12 @@
 // Removes styles, and recognises which ones a motion shows.
 
 import type { Clip, Skeleton } from './character.js';
-import { PanacheError, checkBytes, checkClip, inUse, unexpected } from './checks.js';
+import { PanacheError, checkClip, inUse, unexpected } from './checks.js';
+import { kClip } from './header.js';
 import type { Panache } from './index.js';
 import type { Arena } from './memory.js';
 import type { MotionFile } from './player.js';
-import { kClip } from './structs.js';
-import { styleIndex, type Style } from './styling.js';
+import { createModel, infoOf, styleIndex, stylesOf, type Style } from './styling.js';
 
 const kAnyStyle = 'any', kNeutral = 'neutral';
 
@@ -28,33 +28,29 @@ export class Remover {
     return new Remover(panache, bytes);
   }
   private constructor(panache: Panache, bytes: ArrayBuffer | Uint8Array) {
-    checkBytes(bytes, 'the remover');
-    const { _module: module } = panache;
     this.#panache = panache;
-    this.#remover = module.use((arena) => module.checked(
-      module.wasm.panache_page_remover_create(arena.copy(bytes), bytes.byteLength)));
-    this.styles = module.json(module.wasm.panache_page_styles(this.#remover));
+    this.#remover = createModel(panache._module, bytes, 'the remover');
+    this.styles = stylesOf(panache._module, this.#remover);
+    if (infoOf(panache._module, this.#remover, 0).takesOff) return;
+    this.free();
+    throw new PanacheError('the remover: the model puts styles on; expected one that takes them off');
   }
 
   /** The shares of all styles and neutral in a clip, largest first; they add up to 1. */
   recognise(skeleton: Skeleton, clip: Clip): StyleShare[] {
-    return this.#recognise((arena, remover, shares, count) =>
-      this.#panache._module.wasm.panache_recognise_styles(
-        remover, writeClip(arena, this.#panache, skeleton, clip), shares, count));
+    return this.#recognise((arena) => writeClip(arena, this.#panache, skeleton, clip));
   }
   /** The same for a clip of a file. */
   recogniseFile(file: MotionFile, clip = 0): StyleShare[] {
-    return this.#recognise((_, remover, shares) =>
-      this.#panache._module.wasm.panache_page_file_recognise(
-        file._handleFor(this.#panache), clip, remover, shares));
+    return this.#recognise((arena) => file._clip(this.#panache, arena, clip));
   }
-  // `tell` writes the share of each style, then of neutral.
-  #recognise(tell: (arena: Arena, remover: number, shares: number, count: number) => number) {
+  #recognise(clipIn: (arena: Arena) => number) {
     const { _module: module } = this.#panache;
     const names = [...this.styles.map(({ name }) => name), kNeutral];
     return module.use((arena) => {
       const at = arena.zeros(4 * names.length);
-      arena.check(tell(arena, this._handleFor(this.#panache), at, names.length));
+      arena.check(module.wasm.panache_recognise_styles(
+        this._handleFor(this.#panache), clipIn(arena), at, names.length));
       const shares = module.floats(at, names.length);
       return names.map((name, i) => ({ name, share: shares[i] }))
         .filter(({ name }) => name !== kAnyStyle)

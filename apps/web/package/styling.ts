@@ -1,8 +1,9 @@
 // What characters, clips and players are told of styles: names, sides, persons, shapes.
 
-import { PanacheError, optionsOf, unexpected } from './checks.js';
+import { PanacheError, checkBytes, checkFinite, checkInteger, named, optionsOf, unexpected } from './checks.js';
+import { kShape, kStyleInfo, kStylizeOptions } from './header.js';
+import type { Panache } from './index.js';
 import type { Arena, Module } from './memory.js';
-import { kShape } from './structs.js';
 
 export interface Style {
   /** "old" */
@@ -58,10 +59,7 @@ export interface Shape {
    * or without a style. */
   energy: number;
 }
-const kNeutralShape: Shape = {
-  strength: 1, posture: 1, dynamics: 1, timing: 1, legs: 1, torso: 1, leftArm: 1, rightArm: 1,
-  footLock: 1, handContacts: 1, energy: 1,
-};
+const { structSize: _, ...kNeutralShape } = kShape.initial;
 
 export interface StylizingOptions {
   /** A change of strength takes about this long. Default: 0.15. */
@@ -81,11 +79,45 @@ export interface StylizingOptions {
   /** An integer; characters with different seeds gesture at different times. Default: 0. */
   gestureSeed?: number;
 }
-export const kStylizing = { easeSeconds: 0.15, smoothingSeconds: 0.04, holdFeet: true, styleRoot: true,
-  maxSpeed: 15, gestureRate: 1, gestureSeed: 0 };
+const { easeSeconds, smoothingSeconds, maxSpeed, gestureRate, gestureSeed } = kStylizeOptions.initial;
+export const kStylizing: Required<StylizingOptions> = { easeSeconds, smoothingSeconds, holdFeet: true,
+  styleRoot: true, maxSpeed, gestureRate, gestureSeed };
 
 export function writeShape(arena: Arena, shape: Partial<Shape>): number {
-  return arena.write(kShape, { structSize: kShape.size, ...optionsOf(kNeutralShape, shape) });
+  return arena.write(kShape, optionsOf<Shape>(kNeutralShape, shape));
+}
+
+/** Reads a model from the bytes of its file; `name` is for messages. */
+export function createModel(module: Module, bytes: ArrayBuffer | Uint8Array, name: string): number {
+  checkBytes(bytes, name);
+  return named('model', name, () => module.use((arena) => arena.create((out) =>
+    module.wasm.panache_model_create(arena.copy(bytes), bytes.byteLength, out))));
+}
+/** The styles of a model. */
+export function stylesOf(module: Module, model: number): Style[] {
+  const { wasm } = module;
+  return Array.from({ length: wasm.panache_model_style_count(model) }, (_, style) => {
+    const info = infoOf(module, model, style);
+    return {
+      name: module.text(wasm.panache_model_style_name(model, style)),
+      description: module.text(info.description),
+      group: module.text(info.group),
+      words: module.text(info.words).split(' ').filter(Boolean),
+      learnt: info.isLearnt !== 0,
+      thumbnail: module.text(info.thumbnail),
+      side: info.hasSides ? module.text(info.side) : null,
+      gestures: Array.from({ length: info.gestureCount },
+        (_, k) => module.text(wasm.panache_model_gesture_name(model, style, k))),
+    };
+  });
+}
+/** What the model says of a style; texts are addresses. */
+export function infoOf(module: Module, model: number, style: number) {
+  return module.use((arena) => {
+    const at = arena.write(kStyleInfo);
+    arena.check(module.wasm.panache_model_get_style_info(model, style, at));
+    return arena.read(kStyleInfo, at);
+  });
 }
 
 export function styleIndex(styles: readonly Style[], name: string): number {
@@ -130,11 +162,53 @@ export function personNumbers(module: Module, person: Person, variety: number): 
   if (Number.isInteger(person) && +person >= 0 && +person < 2 ** 32) return [+person, variety];
   throw unexpected('person', 'a word, a whole number from 0 to 4294967295, or null', person);
 }
-/** Checks the result of a trigger: whether the style has such a gesture. */
-export function checkTriggered(found: number, { name, gestures }: Style, gesture: number): void {
-  if (found) return;
-  throw new PanacheError(`style '${name}' has no gesture ${gesture}; it has ${gestures.length}`);
+
+/** What has styles: characters and players. */
+export abstract class Styled {
+  /** @internal */ abstract get _panache(): Panache;
+  /** @internal Those of its model. */ abstract get _styles(): readonly Style[];
+  /** @internal Its panache_character. */ abstract get _character(): number;
+
+  /** 0 is neutral, 1 the style as captured, above 1 exaggerates it (-4 to 4). Eased in. Throws if
+   * the model has no such style, or the strength is not finite. */
+  setStrength(style: string, strength: number): void {
+    const character = this._character, index = styleIndex(this._styles, style);
+    this.#wasm.panache_character_set_strength(
+      character, index, checkFinite(strength, `strength of '${style}'`));
+  }
+  /** Initially 'captured'. Eased in. Throws if the model has no such style or the style no such side. */
+  setSide(style: string, side: Side): void {
+    const character = this._character, index = styleIndex(this._styles, style);
+    this.#wasm.panache_character_set_side(character, index, sideNumber(side, this._styles[index]));
+  }
+  /** Moves as somebody else does, in addition to the styles; initially null, nobody. `variety`: how
+   * far from the mean person, 0 to 2; 1, the default, is as people differ. Eased in. Throws if the
+   * model has no persons. */
+  setPerson(person: Person, variety = 1): void {
+    const character = this._character, { _module: module, personAxes } = this._panache;
+    const [seed, amount] = personNumbers(module, person, variety);
+    if (amount === 0 && personAxes.length === 0) return;
+    module.use((arena) => arena.check(
+      this.#wasm.panache_character_set_person(character, seed, amount)));
+  }
+  /** Plays a gesture of a style (its index in `gestures`; 0) at the style's strength. Waits up to
+   * 3 s until no other gesture plays and a foot is on the floor; otherwise drops it. Throws if the
+   * style has no such gesture. */
+  trigger(style: string, gesture = 0): void {
+    const character = this._character, index = styleIndex(this._styles, style);
+    checkInteger(gesture, 'gesture');
+    if (this.#wasm.panache_character_trigger(character, index, gesture)) return;
+    const { name, gestures } = this._styles[index];
+    throw new PanacheError(`style '${name}' has no gesture ${gesture}; it has ${gestures.length}`);
+  }
+  /** Missing amounts are 1. Eased in. */
+  setShape(shape: Partial<Shape>): void {
+    this._panache._module.use((arena) => arena.check(
+      this.#wasm.panache_character_set_shape(this._character, writeShape(arena, shape))));
+  }
+  get #wasm() { return this._panache._module.wasm; }
 }
+
 /** See style_timing in panache.h. */
 export function timingNumber(timing: Timing | boolean, what: string): number {
   const number = new Map<unknown, number>(

@@ -14,7 +14,6 @@
 #include "api/errors.h"
 #include "api/objects.h"
 #include "base/result.h"
-#include "clip/motion_file.h"
 #include "walker/walker_model.h"
 
 #define PANACHE_EXPORT extern "C" __attribute__((visibility("default"), used))
@@ -22,7 +21,6 @@
 namespace panache::web {
 
 using WalkerHandle = std::shared_ptr<const WalkerModel>;
-using FileHandle = std::shared_ptr<const MotionFile>;
 
 // Stores the error and returns null.
 inline std::nullptr_t fail(const Error& error) {

@@ -76,9 +76,9 @@ struct Motion {
   Result<Rig> rig;
   std::string name;  // File name, for messages.
 };
-Motion motion_of(FileHandle* file, int which, const char* name) {
-  const Clip& clip = (*file)->clip(which);
-  return {clip, Rig::create(clip), name};
+Motion motion_of(const panache_motion_file* file, int which) {
+  const Clip& clip = file->file->clip(which);
+  return {clip, Rig::create(clip), file->path};
 }
 
 Result<LearnPair> pair_of(const Motion& neutral, const Motion& styled) {
@@ -98,16 +98,13 @@ Result<LearnPair> pair_of(std::string_view bank, const Motion& styled) {
 
 // Returns the bytes of a style file, and those of the report in *report. Without a neutral file,
 // uses the mean neutral motion in `bank`.
-PANACHE_EXPORT panache_bytes* panache_page_learn(const char* model, uint32_t model_size,
-                                                 FileHandle* neutral, int32_t neutral_clip,
-                                                 const char* neutral_name, const char* bank,
-                                                 uint32_t bank_size, FileHandle* styled,
-                                                 int32_t styled_clip, const char* styled_name,
-                                                 const char* style, panache_bytes** report) {
-  const Motion after = motion_of(styled, styled_clip, styled_name);
-  const Result<LearnPair> pair =
-      neutral ? pair_of(motion_of(neutral, neutral_clip, neutral_name), after)
-              : pair_of(bytes_at(bank, bank_size), after);
+PANACHE_EXPORT panache_bytes* panache_page_learn(
+    const char* model, uint32_t model_size, const panache_motion_file* neutral,
+    int32_t neutral_clip, const char* bank, uint32_t bank_size, const panache_motion_file* styled,
+    int32_t styled_clip, const char* style, panache_bytes** report) {
+  const Motion after = motion_of(styled, styled_clip);
+  const Result<LearnPair> pair = neutral ? pair_of(motion_of(neutral, neutral_clip), after)
+                                         : pair_of(bytes_at(bank, bank_size), after);
   if (!pair) return fail(pair.error());
   const Result<TensorFile> file = parse_safetensors(bytes_at(model, model_size), kModel);
   if (!file) return fail(file.error());

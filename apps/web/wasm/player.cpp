@@ -10,7 +10,6 @@
 #include "retarget/retarget.h"
 #include "rig/body_mesh.h"
 #include "rig/file_space.h"
-#include "style/model/side.h"
 #include "style/play/removal.h"
 
 namespace panache::web {
@@ -91,29 +90,19 @@ void Player::set_track(int style, std::vector<StrengthTrack::Point> points) {
   tracks_[static_cast<size_t>(style)] = {style, std::move(points)};
 }
 
-void Player::set_side(int style, float side) {
-  if (!model_ || !check_has_sides(*model_)) return;
-  sides_.resize(strengths_.size(), 1.0f);
-  sides_[static_cast<size_t>(style)] = side;
-  stylizer_->set_side(style, side);
-}
-
 void Player::set_gesture_rate(float rate) {
   gesture_rate_ = rate;
-  if (stylizer_) stylizer_->set_gesture_rate(rate);
-}
-
-void Player::set_person(uint32_t seed, float amount) {
-  person_ = seed, variety_ = amount;
-  if (stylizer_) stylizer_->set_person(person_of_seed(*model_, person_, variety_));
+  if (character_) stylizer().set_gesture_rate(rate);
 }
 
 StylizerOptions Player::options() const {
   StylizerOptions options;
   options.tempo_everywhere = timing_ == Timing::all;
-  options.sides = sides_;
   options.gesture_rate = gesture_rate_;
-  if (model_) options.person = person_of_seed(*model_, person_, variety_);
+  if (!character_) return options;
+  options.sides = stylizer().sides();
+  options.person = stylizer().person();
+  options.shape = stylizer().shape();
   return options;
 }
 
@@ -121,7 +110,7 @@ void Player::set_timing(Timing timing) {
   if (timing == timing_) return;
   timing_ = timing;
   // Cannot fail: the models and the rig are the same as before.
-  if (stylizer_) replace(*stylizer_, *Stylizer::create(model_, source_.rig(), options()));
+  if (character_) replace(stylizer(), *Stylizer::create(model_, source_.rig(), options()));
   if (!removal_) return;
   replace(*removal_, *RemovalPass::create(remover_, source_.rig(), options()));
   removal_->set_removed(removed_);
@@ -144,34 +133,34 @@ void Player::set_removed(int style) {
 }
 
 float Player::gate() const {
-  const float gate = stylizer_ ? stylizer_->gate() : 1;
+  const float gate = character_ ? stylizer().gate() : 1;
   return removed_ < 0 ? gate : std::min(gate, removal_->stylizer().gate());
 }
 
 Result<void> Player::use_model(std::shared_ptr<const Model> model) {
-  StylizerOptions how = options();
-  how.sides.clear();
-  how.person = person_of_seed(*model, person_, variety_);
-  Result<Stylizer> stylizer = Stylizer::create(model, source_.rig(), how);
-  if (!stylizer) return stylizer.error();
+  LiveOptions how;
+  how.stylizer = options();
+  how.stylizer.sides = {};
+  how.stylizer.person = {};
+  Result<LiveStylizer> live = LiveStylizer::create(model, source_.rig(), how);
+  if (!live) return live.error();
   model_ = std::move(model);
-  sides_.clear();
-  stylizer_ = *std::move(stylizer);
-  strengths_.assign(model_->styles().size(), 0);
-  strengths_now_ = strengths_;
-  tracks_.assign(strengths_.size(), {});
+  strengths_now_.assign(model_->styles().size(), 0);
+  tracks_.assign(strengths_now_.size(), {});
+  character_.reset(new panache_character{*std::move(live), strengths_now_});
   rate_ = 1;
   return {};
 }
 
 std::vector<StrengthTrack> Player::file_tracks() const {
   std::vector<StrengthTrack> out;
-  for (size_t s = 0; s < strengths_.size(); ++s) {
-    StrengthTrack track{static_cast<int>(s), {{0, strengths_[s]}}};
+  const std::vector<float>& strengths = character_->strengths;
+  for (size_t s = 0; s < strengths.size(); ++s) {
+    StrengthTrack track{static_cast<int>(s), {{0, strengths[s]}}};
     if (!tracks_[s].points.empty()) {
       track.points = tracks_[s].points;
       for (StrengthTrack::Point& point : track.points) point.seconds += source_.begin();
-    } else if (strengths_[s] == 0) {
+    } else if (strengths[s] == 0) {
       continue;
     }
     out.push_back(std::move(track));
@@ -180,8 +169,8 @@ std::vector<StrengthTrack> Player::file_tracks() const {
 }
 
 void Player::read_strengths() {
-  strengths_now_ = strengths_;
-  for (size_t s = 0; s < strengths_.size(); ++s) {
+  strengths_now_ = character_->strengths;
+  for (size_t s = 0; s < tracks_.size(); ++s) {
     if (!tracks_[s].points.empty()) strengths_now_[s] = tracks_[s].at(source_.seconds());
   }
 }
@@ -190,22 +179,21 @@ void Player::step(double seconds) {
   seconds = std::clamp(seconds, 0.0, kLongestStep);
   const double neutral_seconds = seconds * rate_, input_seconds = neutral_seconds * removal_rate_;
   if (source_.advance(input_seconds, input_.pose())) {
-    if (stylizer_) stylizer_->reset();
+    if (character_) character_->live.reset();
     if (removal_) removal_->reset();
   }
   ConstPose in = input_.pose();
   if (removal_) in = removal_->step(in, input_seconds, neutral_seconds);
   const bool timed = timing_ != Timing::off;
-  if (stylizer_) {
-    stylizer_->set_shape(shape_);
+  if (character_) {
     read_strengths();
-    stylizer_->step(in, strengths_now_, {neutral_seconds, seconds, source_.flight()},
+    stylizer().step(in, strengths_now_, {neutral_seconds, seconds, source_.flight()},
                     output_.pose());
   } else {
     std::ranges::copy(in.rotations, output_.rotations.begin());
     std::ranges::copy(in.translations, output_.translations.begin());
   }
-  rate_ = timed && stylizer_ ? stylizer_->rate() : 1;
+  rate_ = timed && character_ ? stylizer().rate() : 1;
   removal_rate_ = timed && removal_ ? removal_->stylizer().rate() : 1;
   input_.update(seconds);
   output_.update(seconds);
@@ -213,8 +201,8 @@ void Player::step(double seconds) {
 
 void Player::measure(int count) {
   constexpr double kSeconds = 1.0 / 60;
-  if (!stylizer_) return;
-  Stylizer twin = *stylizer_;
+  if (!character_) return;
+  Stylizer twin = stylizer();
   std::optional<RemovalPass> removal_twin = removal_;
   for (int i = 0; i < count; ++i) {
     ConstPose in = input_.pose();
@@ -245,11 +233,11 @@ Result<std::string> Player::export_as(const std::string& extension,
     const Clip walk = recording->clip(kRecordedFps, std::min(seconds, kRecordedSeconds));
     return format_clip(walk, source_, extension);
   }
+  if (!character_) return Error{"expected a model to export the motion with"};
   RestyleOptions how;
   how.stylizer = options();
-  if (styled) how.stylizer.shape = shape_;
+  if (!styled) how.stylizer.shape = {};
   how.timing = timing_ != Timing::off;
-  if (!model_) return Error{"expected a model to export the motion with"};
   const auto tracks = styled ? file_tracks() : std::vector<StrengthTrack>();
   Result<Restyled> restyled =
       styled && removed_ >= 0

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "api/objects.h"
 #include "recording.h"
 #include "rig/body_mesh.h"
 #include "rig/posed_rig.h"
@@ -50,24 +51,18 @@ class Player {
   // `model` may be null: the output is the input until use_model().
   static Result<std::unique_ptr<Player>> create(std::shared_ptr<const Model> model, Source source);
 
-  // Used from the next step on.
-  std::vector<float>& strengths() { return strengths_; }  // [styles]
+  // Null without a model. Strengths, sides, person and shape are set on it.
+  panache_character* character() { return character_.get(); }
   // For clips: sets keyframes for the strength of a style. Times are seconds after the first frame,
   // ascending. Without points the constant strength applies again.
   void set_track(int style, std::vector<StrengthTrack::Point> points);
-  // See Stylizer::set_side(). use_model() sets all to 1.
-  void set_side(int style, float side);
   // See StylizerOptions::gesture_rate.
   void set_gesture_rate(float rate);
-  // Makes the character the person of a seed, see person_of_seed(); nobody in a model without
-  // persons.
-  void set_person(uint32_t seed, float amount);
-  Shape& shape() { return shape_; }
   // Used from the next step on; the motion continues. Initially Timing::steps.
   void set_timing(Timing timing);
   Source& source() { return source_; }
   // How firmly the left (0) or the right foot (1) stands, 0 to 1.
-  float contact(size_t foot) const { return stylizer_ ? stylizer_->contacts()[foot] : 0; }
+  float contact(size_t foot) const { return character_ ? stylizer().contacts()[foot] : 0; }
   // Input seconds per output second.
   double rate() const { return rate_ * removal_rate_; }
   // See StyleNetworks::gate(): the smaller gate of the remover and of the stylizer.
@@ -80,12 +75,9 @@ class Player {
   // default. Eased. Ignored without a remover, and if the index is out of range.
   void set_removed(int style);
 
-  // Switches to another model; clears strengths, tracks and sides. Fails if it does not suit the
-  // rig.
+  // Switches to a new character of another model, with the shape of the old one. Fails if it does
+  // not suit the rig.
   Result<void> use_model(std::shared_ptr<const Model> model);
-
-  // See Stylizer::trigger().
-  bool trigger(int style, int gesture) { return stylizer_ && stylizer_->trigger(style, gesture); }
 
   // Advances by `seconds` of the viewer's time, at most a tenth per call.
   void step(double seconds);
@@ -106,7 +98,8 @@ class Player {
 
  private:
   explicit Player(Source source);
-  // For the current timing, sides, gestures and person.
+  Stylizer& stylizer() const { return character_->live.stylizer(); }
+  // For the current timing and gestures; sides, person and shape are those of the character.
   StylizerOptions options() const;
   // Writes the strengths at this instant to strengths_now_.
   void read_strengths();
@@ -115,20 +108,16 @@ class Player {
 
   Source source_;
   std::shared_ptr<const Model> model_;
-  std::optional<Stylizer> stylizer_;  // Set with a model.
+  std::unique_ptr<panache_character> character_;  // Set with a model.
   std::shared_ptr<const Model> remover_;
   std::optional<RemovalPass> removal_;  // Set with a remover.
   int removed_ = -1;
   Shown input_, output_;
   std::optional<BodyMesh> body_, coarse_body_;
-  std::vector<float> strengths_, strengths_now_;  // [styles]
-  std::vector<StrengthTrack> tracks_;             // [styles], mostly empty.
-  std::vector<float> sides_;                      // [styles], or empty: all 1.
-  Shape shape_;
+  std::vector<float> strengths_now_;   // [styles]
+  std::vector<StrengthTrack> tracks_;  // [styles], mostly empty.
   Timing timing_ = Timing::steps;
   float gesture_rate_ = 1;
-  uint32_t person_ = 0;                 // A seed,
-  float variety_ = 0;                   // and how far from the mean person.
   double rate_ = 1, removal_rate_ = 1;  // Rates of the two passes.
 };
 

@@ -18,6 +18,8 @@ class NetworkSource final : public ChangeSource {
   void set_strengths(std::span<const float> strengths) noexcept { wanted_ = strengths; }
   void set_side(int style, float side) noexcept;
   void set_shape(const Shape& shape) noexcept { shape_ = shape; }
+  const Shape& shape() const noexcept { return shape_; }
+  const std::vector<float>& sides() const noexcept { return sides_; }
   void set_person(std::span<const float> numbers) noexcept;
   const PersonNumbers& person() const noexcept { return person_; }
   bool trigger(int style, int gesture) noexcept;
