@@ -3,8 +3,8 @@
 import type { Style } from '../package/index.js';
 import { element } from './dom';
 import { capitalized } from './groups';
-import type { Page } from './page';
-import { kMin, kMax } from './settings';
+import { kMin, kMax } from './keys';
+import type { Session } from './session';
 import { SideSwitch } from './side';
 import { Slider } from './slider';
 
@@ -14,17 +14,17 @@ export class ActiveStyles {
   #sliders = new Map<string, Slider>();
   #sides = new Map<string, SideSwitch>();
 
-  constructor(private page: Page) {
+  constructor(private session: Session) {
     this.element.append(this.#none);
-    page.store.listen(() => this.#show());
+    session.store.listen(() => this.#show());
     this.element.addEventListener('focusout', () => setTimeout(() => this.#show()));
   }
 
   /** Shows the current strengths of styles with keys. */
   showNow() {
     for (const [name, slider] of this.#sliders) {
-      if (!(name in this.page.store.settings.keys)) continue;
-      slider.show(Math.round(this.page.strengthOf(name) * 100) / 100);
+      if (!(name in this.session.store.settings.keys)) continue;
+      slider.show(Math.round(this.session.strengthOf(name) * 100) / 100);
     }
   }
 
@@ -41,12 +41,12 @@ export class ActiveStyles {
     const slider = new Slider({
       id: `style-${encodeURIComponent(name)}`, title: capitalized(name),
       hint: description || undefined, min: kMin, max: kMax, rest: 0,
-      onChange: (value) => this.page.setStrength(name, value),
-      onReset: () => this.page.store.dropStyle(name),
+      onChange: (value) => this.session.setStrength(name, value),
+      onReset: () => this.session.store.dropStyle(name),
     });
     slider.row.append(element('p', { class: 'words' }, description));
     if (style.side) {
-      const side = new SideSwitch(style, (chosen) => this.page.store.setSide(name, chosen));
+      const side = new SideSwitch(style, (chosen) => this.session.store.setSide(name, chosen));
       this.#sides.set(name, side);
       slider.row.append(side.element);
     }
@@ -54,17 +54,17 @@ export class ActiveStyles {
   }
 
   #show() {
-    const { styles, keys, sides } = this.page.store.settings;
+    const { styles, keys, sides } = this.session.store.settings;
     for (const [name, { row }] of this.#sliders) {
       // A slider in use stays, also at 0.
-      if (this.page.isActive(name) || row.contains(document.activeElement)) continue;
+      if (this.session.isActive(name) || row.contains(document.activeElement)) continue;
       row.remove();
       this.#sliders.delete(name);
       this.#sides.delete(name);
     }
-    for (const style of this.page.panache.styles) {
+    for (const style of this.session.panache.styles) {
       const { name } = style;
-      if (!this.page.isActive(name) || this.#sliders.has(name)) continue;
+      if (!this.session.isActive(name) || this.#sliders.has(name)) continue;
       const slider = this.#make(style);
       this.#sliders.set(name, slider);
       this.element.append(slider.row);

@@ -4,9 +4,10 @@ import { PanacheError, type MotionFile, type Playback, type Walk } from '../pack
 import { saveBytes } from './dom';
 import { late } from './late';
 import { clipLoop, walkLoop, type LoopMotion } from './loop';
-import type { Page } from './page';
+import type { Session } from './session';
 import { freed, openMoving, titleOf } from './source';
 import { activeStyles, applySettings } from './styling';
+import type { TransportBar } from './transport';
 
 const kFormats = ['.bvh', '.glb', '.vrma'];
 
@@ -19,31 +20,31 @@ function addMotion(out: Exports, player: Walk | Playback, title: string) {
 }
 
 export class Exporter {
-  constructor(private page: Page) {}
+  constructor(private session: Session, private transport: TransportBar) {}
 
   /** "walk-old.bvh": the source, the styles, the extension. */
   nameOf(extension: string, of?: string): string {
-    const styles = activeStyles(this.page.source, this.page.store.settings);
+    const styles = activeStyles(this.session.source, this.session.store.settings);
     const title = of ?? this.#title;
     return `${[title, ...(styles.length ? styles : ['neutral'])].join('-')}${extension}`;
   }
 
   /** The title of the displayed motion, for file names. */
   get #title(): string {
-    const { source, steering } = this.page;
+    const { source, steering } = this.session;
     return source.kind === 'clip' ? titleOf(source.file.name) : steering.pace;
   }
 
   save(extension: string) {
-    saveBytes(this.page.source.player.exportAs(extension) as BlobPart, this.nameOf(extension));
+    saveBytes(this.session.source.player.exportAs(extension) as BlobPart, this.nameOf(extension));
   }
   saveStyle(name: string) {
-    saveBytes(this.page.panache.extractStyle(name) as BlobPart, `${name}.safetensors`);
+    saveBytes(this.session.panache.extractStyle(name) as BlobPart, `${name}.safetensors`);
   }
 
   /** Saves all listed files with the current settings, in all formats. */
   async saveAll() {
-    const { source, panache, files } = this.page;
+    const { source, panache, files } = this.session;
     const out: Exports = {}, failed: string[] = [];
     if (source.kind === 'walk') addMotion(out, source.player, this.nameOf(''));
     const listed = source.kind === 'clip' ? files : [];
@@ -77,7 +78,7 @@ export class Exporter {
 
   /** The displayed motion as a file. */
   capture(which: 'input' | 'styled', seconds: number): File {
-    const { source } = this.page;
+    const { source } = this.session;
     const extension = source.kind === 'clip' ? source.file.extension : '.bvh';
     const bytes = source.player.exportAs(extension, { which, seconds });
     return new File([bytes as BlobPart],
@@ -86,7 +87,7 @@ export class Exporter {
 
   /** A replayable copy of the displayed motion, independent of the view. */
   loopMotion(): LoopMotion {
-    const { source, panache, store, steering, bytes, transport } = this.page;
+    const { transport, session: { source, panache, store, steering, bytes } } = this;
     const prepare = (player: Walk | Playback) => this.#prepare(player);
     if (source.kind === 'walk') return walkLoop(panache, steering.pace, prepare);
     const keyed = Object.keys(store.settings.keys).length > 0;
@@ -94,7 +95,7 @@ export class Exporter {
   }
 
   #prepare(player: Walk | Playback) {
-    const { panache, store, removal } = this.page;
+    const { panache, store, removal } = this.session;
     applySettings(panache, player, store.settings, removal.remover);
   }
 }

@@ -3,7 +3,7 @@
 import type { Style } from '../package/index.js';
 import { button, element, hinted } from './dom';
 import { capitalized } from './groups';
-import type { Page } from './page';
+import type { Session } from './session';
 
 export class Gestures {
   #list = element('div');
@@ -12,8 +12,8 @@ export class Gestures {
     element('p', { class: 'hint' }, 'Short movements on top of a style. G plays one of the active styles.'),
     this.#list);
 
-  constructor(private page: Page) {
-    page.store.listen(() => this.#mark());
+  constructor(private session: Session) {
+    session.store.listen(() => this.#mark());
   }
 
   set(styles: readonly Style[]) {
@@ -22,13 +22,13 @@ export class Gestures {
     this.#list.replaceChildren(...own.map(({ name, gestures }) => element('p',
       { class: 'gestures', 'data-style': name }, element('span', {}, capitalized(name)),
       ...gestures.map((gesture, i) => button(capitalized(gesture),
-        () => this.page.trigger(name, i), hinted(`${capitalized(gesture)}, a gesture of ${name}`))))));
+        () => this.session.trigger(name, i), hinted(`${capitalized(gesture)}, a gesture of ${name}`))))));
     this.#mark();
   }
 
   #mark() {
     for (const row of this.#list.children as HTMLCollectionOf<HTMLElement>) {
-      row.classList.toggle('active', this.page.isActive(row.dataset.style!));
+      row.classList.toggle('active', this.session.isActive(row.dataset.style!));
     }
   }
 }

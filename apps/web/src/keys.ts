@@ -1,6 +1,14 @@
 // Keyframes: the strength of a style over the time of a clip, interpolated linearly.
 
-import { bounded, kMin, kMax } from './settings';
+/** The range of strengths. */
+export const kMin = -0.5;
+export const kMax = 2;
+
+/** Clamps to the bounds and rounds to two decimals; returns `otherwise` if not finite. */
+export function bounded(value: number, min: number, max: number, otherwise: number): number {
+  if (!Number.isFinite(value)) return otherwise;
+  return Math.round(Math.min(max, Math.max(min, value)) * 100) / 100 || 0;
+}
 
 /** Seconds after the first frame, rounded to the millisecond, and a strength. */
 export type Key = readonly [seconds: number, strength: number];

@@ -3,10 +3,11 @@
 import type { LearnReport, MotionFile } from '../package/index.js';
 import { attempt } from './alerts';
 import { button, element } from './dom';
+import type { Exporter } from './exporter';
 import { capitalized, motionOptions } from './groups';
 import { packed } from './late';
 import { drawMatch, kMatchPlotHeight } from './match_plot';
-import type { Page } from './page';
+import type { Session } from './session';
 import { firstMotion, openFile } from './source';
 
 type Role = 'neutral' | 'styled';
@@ -23,7 +24,7 @@ class Slot {
   #begin = 0;
   #timer = 0;
 
-  constructor(readonly role: Role, private page: Page,
+  constructor(readonly role: Role, private session: Session, private exporter: Exporter,
       private attempt: (action: () => Promise<void> | void) => void,
       private onChange: () => void) {
     this.#input.id = `learn-${role}`;
@@ -46,7 +47,7 @@ class Slot {
 
   /** Whether the displayed motion is endless, so it has to be recorded. */
   get #isLive() {
-    return this.page.source.kind === 'walk';
+    return this.session.source.kind === 'walk';
   }
 
   /** Updates the text of the button for the displayed source. */
@@ -62,7 +63,7 @@ class Slot {
   }
 
   async open(file: File) {
-    const opened = (await openFile(this.page.panache, file)).file;
+    const opened = (await openFile(this.session.panache, file)).file;
     const first = firstMotion(opened);
     this.file?.free();
     this.file = opened;
@@ -78,7 +79,7 @@ class Slot {
     const which = this.role === 'neutral' ? 'input' : 'styled';
     const seconds = () => (performance.now() - this.#begin) / 1000;
     if (!this.#isLive && !this.#timer) {
-      return this.open(this.page.exporter.capture(which, Infinity));
+      return this.open(this.exporter.capture(which, Infinity));
     }
     if (!this.#timer) {
       this.#begin = performance.now();
@@ -93,7 +94,7 @@ class Slot {
     this.#timer = 0;
     this.#record.removeAttribute('aria-pressed');
     this.showSource();
-    await this.open(this.page.exporter.capture(which, seconds()));
+    await this.open(this.exporter.capture(which, seconds()));
   }
 }
 
@@ -108,9 +109,9 @@ export class Learn {
   #error = element('p', { class: 'error', role: 'alert', hidden: true });
   #report = element('div', { id: 'learn-report', hidden: true });
 
-  constructor(private page: Page) {
+  constructor(private session: Session, private exporter: Exporter) {
     const slot = (role: Role) =>
-      new Slot(role, page, (action) => this.#attempt(action), () => this.#showButton());
+      new Slot(role, session, exporter, (action) => this.#attempt(action), () => this.#showButton());
     this.#slots = { neutral: slot('neutral'), styled: slot('styled') };
     this.section = element('section', { id: 'learn', hidden: true, 'aria-label': 'Learn a style' },
       element('p', { class: 'hint' }, 'A clip in the style, 2 to 3 seconds of any action. Better: the ' +
@@ -148,7 +149,7 @@ export class Learn {
   }
 
   #isOwn(name: string) {
-    return this.page.panache.styles.some((style) => style.name === name && style.learnt);
+    return this.session.panache.styles.some((style) => style.name === name && style.learnt);
   }
   #showButton() {
     const { styled } = this.#slots;
@@ -159,7 +160,7 @@ export class Learn {
 
   async #learn() {
     const { neutral, styled } = this.#slots;
-    const { panache } = this.page;
+    const { panache } = this.session;
     const name = this.#name.value.trim();
     if (!styled.file) return;
     this.#report.hidden = true;
@@ -169,8 +170,8 @@ export class Learn {
         : await packed('neutral'));
     panache.addStyle(bytes, { replace: this.#isOwn(name) });
     const seconds = (performance.now() - begin) / 1000;
-    this.page.stylesChanged(name);
-    this.page.store.set({ styles: { [name]: 1 }, keys: {}, sides: {} });
+    this.session.stylesChanged(name);
+    this.session.playAlone(name);
     this.#showReport(name, report, seconds);
     this.#showButton();
   }
@@ -195,7 +196,7 @@ export class Learn {
         : `${capitalized(verdict ?? '')}: joints ${cm(heldBackCm)} cm off on the held-back last ` +
           'quarter (its mean posture alone ' +
           `${cm(meanPostureCm)}, no style ${cm(untouchedCm)}).`),
-      button('Save style file', () => this.page.exporter.saveStyle(name), { id: 'learn-save' }));
+      button('Save style file', () => this.exporter.saveStyle(name), { id: 'learn-save' }));
     this.#report.hidden = false;
     drawMatch(canvas, report.plot);
   }

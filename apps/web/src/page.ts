@@ -1,7 +1,7 @@
 // The page: creates everything and runs it frame by frame.
 
 import { Panache } from '../package/index.js';
-import { attempt, say } from './alerts';
+import { attempt } from './alerts';
 import type { Angle } from './camera';
 import { find, forgetColours } from './dom';
 import { listenToDrops } from './drops';
@@ -10,21 +10,18 @@ import { Exporter } from './exporter';
 import { Figures } from './figures';
 import { Cross } from './gamepad';
 import { buildHelp } from './help';
-import { withKey } from './keys';
 import { Learn } from './learn';
 import { buildPanel, captionOf } from './panel';
 import { Plots } from './plots';
-import { kRemovable, Removal } from './removal';
 import { served } from './served';
-import { fromAddress, rememberInAddress, Store, type Settings, type View } from './settings';
+import { Session } from './session';
+import { rememberInAddress, type Settings, type View } from './settings';
 import { listenToKeys } from './shortcuts';
-import {
-  clipSource, firstMotion, isModel, openMoving, putTogether, walkSource, type Source,
-} from './source';
+import { isModel } from './source';
 import { Stage } from './stage';
-import { Steering, type Pace, type Wish } from './steering';
+import type { Pace, Wish } from './steering';
 import { applySettings, keyedNow, triggerAny } from './styling';
-import { buildFileControls, buildWalkerControls, listFiles, showPace } from './toolbar';
+import { buildFileControls, buildWalkerControls, showPace } from './toolbar';
 import { Track } from './track';
 import { TransportBar } from './transport';
 import { buildViewControls } from './view_controls';
@@ -32,26 +29,18 @@ import { buildViewControls } from './view_controls';
 const kBelowChips = 14;  // Pixels between the buttons in the view and a head.
 
 export class Page {
-  readonly store: Store;
+  readonly session: Session;
   readonly stage = new Stage(find<HTMLCanvasElement>('#view'));
   #plots: Plots;
-  readonly exporter: Exporter;
-  readonly steering = new Steering(find('#stick'));
   #cross = new Cross();
-  readonly transport: TransportBar;
+  #transport: TransportBar;
   #figures: Figures;
   #panel: ReturnType<typeof buildPanel>;
-  readonly removal: Removal;
-  readonly learn: Learn;
+  #learn: Learn;
   #track: Track;
   readonly crowd: Crowd;
-  readonly help = buildHelp();
-  source: Source;
+  #help = buildHelp();
   frames = 0;
-  files: File[] = [];  // Opened together.
-  #file: File | null = null;    // The open one.
-  bytes = new ArrayBuffer(0);  // Content of the open file.
-  #cut = true;
   #last = 0;
   #seconds = 0;
   #passed = 0;  // Seconds in the last frame.
@@ -59,24 +48,20 @@ export class Page {
 
   /** Whether the model has arrived: until then the walker walks without styles. */
   ready = false;
-  #loaded: Promise<void>;
 
   constructor(readonly panache: Panache, model: Promise<ArrayBuffer>) {
-    this.store = new Store(this.#readAddress());
-    this.removal = new Removal(panache, this.store);
+    const session = this.session = new Session(panache);
     this.#plots = new Plots(find('#plots'), panache.styles.map(({ name }) => name));
-    this.exporter = new Exporter(this);
-    this.transport = new TransportBar(this);
-    this.source = walkSource(panache);
-    this.learn = new Learn(this);
-    this.#track = new Track(this);
-    this.#track.setStyles(panache.styles);
+    this.#transport = new TransportBar(session);
+    const exporter = new Exporter(session, this.#transport);
+    this.#learn = new Learn(session, exporter);
+    this.#track = new Track(session);
     find('.clip-row').append(this.#track.toggle);
-    this.#panel = buildPanel(this);
+    this.#panel = buildPanel(session, exporter, this.#learn);
     this.#figures = new Figures(panache);
     this.crowd = new Crowd(panache);
     this.stage.gather(this.crowd);
-    buildViewControls(this);
+    buildViewControls(this.stage, (angle) => this.look(angle), this.#help);
     this.stage.keepClear = () => {
       const chips = find('#camera').getBoundingClientRect();
       const view = this.stage.canvas.getBoundingClientRect();
@@ -85,21 +70,22 @@ export class Page {
     };
     buildWalkerControls((pace) => this.#setPace(pace));
     this.#setPace('walk');
-    buildFileControls(this);
+    buildFileControls(session, this.stage, exporter);
     listenToDrops((given, target) => {
       const motions = given.filter((file) => !isModel(file));
       // While the learning form is open, it takes the motions.
-      if (this.learn.open && motions.length) this.learn.take(motions, target);
-      else void attempt(() => this.openAll(given));
+      if (this.#learn.open && motions.length) this.#learn.take(motions, target);
+      else void attempt(() => session.openAll(given));
     });
-    this.use(this.source);
+    session.listen('source', () => this.#showSource());
+    session.listen('styles', () => this.#showStyles());
     this.store.listen((settings) => this.#apply(settings));
-    this.#loaded = model.then((bytes) => this.#begin(bytes));
-    this.#loaded.catch((error: Error) => (find('#styles-wait').textContent = error.message));
+    session.loaded = model.then((bytes) => this.#begin(bytes));
+    session.loaded.catch((error: Error) => (find('#styles-wait').textContent = error.message));
     void attempt(async () => {
-      if (!await this.#loaded.then(() => true, () => false)) return;
+      if (!await session.loaded.then(() => true, () => false)) return;
       const file = await served('open');
-      if (file) await this.openAll([file]);
+      if (file) await session.openAll([file]);
     });
     matchMedia('(prefers-color-scheme: dark)')
       .addEventListener('change', () => {
@@ -120,14 +106,18 @@ export class Page {
       this.#frame(now);
     });
   }
+  get store() { return this.session.store; }
+  get source() { return this.session.source; }
+  get removal() { return this.session.removal; }
 
   /** Shows the styles of the page's first model, with the strengths of the address. */
   #begin(bytes: ArrayBuffer) {
+    const { session } = this;
     this.panache.setModel(bytes);
-    this.stylesChanged();
-    const { styles, keys, sides } = this.#readAddress();
+    session.stylesChanged();
+    const { styles, keys, sides } = session.readAddress();
     this.store.begin({ styles, keys, sides });
-    rememberInAddress(this.store, () => this.#readAddress());
+    rememberInAddress(this.store, () => session.readAddress());
     this.#panel.showStyles();
     this.ready = true;
   }
@@ -144,8 +134,8 @@ export class Page {
     if (this.store.settings.view === 'crowd') {
       this.crowd.step(this.source, this.stage.styledLook, this.#passed, this.#wish);
     }
-    this.stage.update(this.source, this.#cut, seconds);
-    this.#cut = false;
+    this.stage.update(this.source, this.session.cut, seconds);
+    this.session.cut = false;
     this.stage.draw(seconds);
     this.#report();
     ++this.frames;
@@ -154,17 +144,17 @@ export class Page {
   #advance(seconds: number) {
     const source = this.source;
     if (source.kind === 'walk') {
-      this.#wish = this.steering.wish(seconds);
+      this.#wish = this.session.steering.wish(seconds);
       source.player.steer(this.#wish.speed, this.#wish.turn);
       source.player.step(seconds);
       this.#passed = seconds;
       this.#seconds += seconds;
       return;
     }
-    const { passed, cut } = this.transport.play(source, seconds);
+    const { passed, cut } = this.#transport.play(source, seconds);
     this.#passed = passed;
     this.#seconds += passed;
-    this.#cut ||= cut;
+    this.session.cut ||= cut;
     this.#track.at(source.player.seconds);
   }
 
@@ -178,9 +168,6 @@ export class Page {
 
   // ---- Settings ----
 
-  #readAddress(): Settings {
-    return fromAddress(location.hash, this.panache.styles.map(({ name }) => name), kRemovable);
-  }
   #apply(settings: Settings) {
     const { remover } = this.removal;
     applySettings(this.panache, this.source.player, settings, remover);
@@ -204,75 +191,22 @@ export class Page {
     this.look('face');
   }
 
-  isActive(name: string): boolean {
-    const { styles, keys } = this.store.settings;
-    return (styles[name] ?? 0) !== 0 || name in keys;
-  }
-  /** Plays a style alone, as captured. If it does so already, takes it off unless `keep`. */
-  playStyle(name: string, keep = false) {
-    const { styles, keys } = this.store.settings;
-    const alone = styles[name] === 1 && Object.keys({ ...styles, ...keys }).length === 1;
-    if (!alone) this.store.set({ styles: { [name]: 1 }, keys: {}, sides: {} });
-    else if (!keep) this.store.set({ styles: {}, sides: {} });
-  }
-  /** Adds a style to the active ones, as captured. */
-  addStyle(name: string) {
-    if (!this.isActive(name)) this.store.setStyle(name, 1);
-  }
-  /** The current strength of a style. */
-  strengthOf(name: string): number {
-    const { settings } = this.store;
-    return keyedNow(this.source, settings)[name] ?? settings.styles[name] ?? 0;
-  }
-  /** Plays a gesture; turns its style on if it is off. */
-  trigger(name: string, gesture: number) {
-    if (this.strengthOf(name) === 0) this.setStrength(name, 1);
-    this.source.player.trigger(name, gesture);
-  }
-  /** Sets the strength; a style with keys gets a key at the play head, and playing stops. */
-  setStrength(name: string, value: number) {
-    const keys = this.store.settings.keys[name];
-    if (this.source.kind !== 'clip' || !keys) return this.store.setStyle(name, value);
-    this.transport.setPlaying(false);
-    this.store.setKeys(name, withKey(keys, this.source.player.seconds, value).keys);
-  }
-
-  // ---- Models ----
-
-  /** Call it when the model's styles change; `changed` is a style replaced under the same name. */
-  stylesChanged(changed = '') {
+  #showStyles() {
     const { styles } = this.panache;
-    this.#panel.setStyles(styles, changed);
+    this.#panel.setStyles(styles, this.session.changed);
     this.#figures.show(this.#panel.cards.buttons);
     this.#plots.styles = styles.map(({ name }) => name);
     this.#track.setStyles(styles);
-    this.store.keepStyles(this.#plots.styles);
-  }
-
-  removeStyle(name: string) {
-    this.panache.removeStyle(name);
-    this.stylesChanged();
-  }
-
-  /** Opens a model, or adds a style to the open model. */
-  async #openModel(file: File) {
-    const bytes = await file.arrayBuffer();
-    const known = this.panache.styles.map(({ name }) => name);
-    const isStyle = this.panache.isStyle(bytes);
-    if (isStyle) this.panache.addStyle(bytes, { name: file.name });
-    else this.panache.setModel(bytes, file.name);
-    this.stylesChanged();
-    const added = this.panache.styles.find(({ name }) => !known.includes(name));
-    if (isStyle && added) this.store.set({ styles: { [added.name]: 1 }, keys: {}, sides: {} });
   }
 
   #listenToKeys() {
+    const { session, session: { steering } } = this;
     const ofClip = (action: () => void) => () => this.source.kind === 'clip' && action();
-    listenToKeys(this, {
+    listenToKeys(this.store, this.stage, this.#help, {
       Space: () => {
         const isClip = this.source.kind === 'clip';
-        if (isClip) this.transport.setPlaying(!this.transport.state.playing);
-        else this.#setPace(this.steering.pace === 'idle' ? 'walk' : 'idle');
+        if (isClip) this.#transport.setPlaying(!this.#transport.state.playing);
+        else this.#setPace(steering.pace === 'idle' ? 'walk' : 'idle');
       },
       Digit0: () => this.store.set({ styles: {}, keys: {}, sides: {} }),
       Digit1: () => this.look('front'),
@@ -283,10 +217,10 @@ export class Page {
       KeyG: () => triggerAny(this.panache, this.source, this.store.settings),
       KeyK: ofClip(() => this.#track.add()),
       KeyN: () => this.store.set({ onion: !this.store.settings.onion }),
-      KeyI: ofClip(() => this.transport.setIn()),
-      KeyO: ofClip(() => this.transport.setOut()),
-      Comma: () => this.stepFrames(-1),
-      Period: () => this.stepFrames(1),
+      KeyI: ofClip(() => this.#transport.setIn()),
+      KeyO: ofClip(() => this.#transport.setOut()),
+      Comma: () => session.stepFrames(-1),
+      Period: () => session.stepFrames(1),
     });
   }
 
@@ -294,29 +228,19 @@ export class Page {
     this.stage.look(angle, this.source.player);
   }
 
-  // ---- Sources ----
-
-  /** Shows a source, and frees the one before. */
-  use(source: Source) {
-    if (this.source !== source) {
-      const old = this.source;
-      if (old.kind === 'clip' && (source.kind !== 'clip' || source.file !== old.file)) {
-        old.file.free();
-      }
-      this.crowd.clear();
-      old.player.free();
-    }
-    this.source = source;
+  #showSource() {
+    const { source } = this;
+    this.crowd.clear();
     document.body.dataset.source = source.kind;
     find('#walker-controls').hidden = source.kind !== 'walk';
     find('#clip-controls').hidden = source.kind !== 'clip';
     find('#back').hidden = source.kind === 'walk';
-    this.learn.showSource();
+    this.#learn.showSource();
     find('#file-name').textContent = source.kind === 'clip' ? source.file.name : '';
     if (source.kind === 'clip') {
-      this.transport.show(source);
-      this.transport.setPlaying(true);
-      source.player.loop = this.transport.state.loop;
+      this.#transport.show(source);
+      this.#transport.setPlaying(true);
+      source.player.loop = this.#transport.state.loop;
       const { seconds, frameTime } = source.file.clips[source.clip] ?? { seconds: 0, frameTime: 0 };
       this.#track.setTime(seconds, frameTime);
       if (Object.keys(this.store.settings.keys).length) this.#track.open(true);
@@ -329,72 +253,12 @@ export class Page {
     source.player.step(0);
     this.stage.show(source);
     this.#plots.clear();
-    this.#cut = true;
-  }
-
-  /** Only for clips, like stepFrames(). */
-  seek(seconds: number) {
-    if (this.source.kind !== 'clip') return;
-    this.source.player.seek(seconds);
-    this.#cut = true;
-  }
-
-  stepFrames(frames: number) {
-    if (this.source.kind !== 'clip') return;
-    const { file, clip, player } = this.source;
-    const { frameTime, seconds } = file.clips[clip] ?? { frameTime: 0, seconds: 0 };
-    this.transport.setPlaying(false);
-    if (frameTime <= 0) return;
-    const at = Math.round(player.seconds / frameTime) + frames;
-    this.seek(Math.min(seconds, Math.max(0, at * frameTime)));
-  }
-
-  /** Loads models and styles, opens the first of the other files, and lists them if there are
-   * several. */
-  async openAll(given: File[]) {
-    await this.#loaded;
-    for (const file of given.filter(isModel)) await this.#openModel(file);
-    const files = given.filter((file) => !isModel(file));
-    if (files.length === 0) return;
-    const list = await putTogether(this.panache, files);
-    await this.open(list[0]);
-    this.files = list;
-    listFiles(list);
-  }
-
-  /** Plays a motion of a file, by default the first that moves a body. */
-  async open(given: File, clip?: number, fps?: number) {
-    const opened = await openMoving(this.panache, given, fps);
-    let source: Source;
-    try {
-      source = await clipSource(opened.file, opened.bytes, clip ?? firstMotion(opened.file));
-    } catch (error) {
-      opened.file.free();
-      throw error;
-    }
-    this.#file = opened.from;
-    this.bytes = opened.bytes;
-    this.use(source);
-    if (opened.notes.length > 0) say(opened.notes.join('\n'));
-  }
-
-  async playClip(clip: number) {
-    if (this.source.kind !== 'clip') return;
-    this.use(await clipSource(this.source.file, this.bytes, clip));
-  }
-
-  /** Reads the open file at `fps` frames per second; 0: at its own rate. */
-  async setRate(fps: number) {
-    const source = this.source;
-    if (source.kind !== 'clip' || !this.#file) return;
-    this.transport.showRate(source.file, source.clip);  // Kept if opening fails.
-    await this.open(this.#file, source.clip, fps);
   }
 
   // ---- Controls under the view ----
 
   #setPace(pace: Pace) {
-    this.steering.setPace(pace);
+    this.session.steering.setPace(pace);
     showPace(pace);
   }
 }

@@ -2,10 +2,12 @@
 
 import type { Style, Timing } from '../package/index.js';
 import { button, element, find } from './dom';
+import type { Exporter } from './exporter';
 import { capitalized } from './groups';
+import type { Learn } from './learn';
 import { buildPad } from './pad';
-import type { Page } from './page';
 import { kAnyStyle } from './removal';
+import type { Session } from './session';
 import {
   kAmounts, kDefaults, kRegions, kTempos, type Settings, type Store, type Switch, type View,
 } from './settings';
@@ -129,13 +131,14 @@ function search(cards: StyleCards) {
 
 /** Builds the panel. `setStyles` shows the model's styles; `changed` names a style that was
  * replaced. */
-export function buildPanel(page: Page) {
-  const { store, learn } = page;
+export function buildPanel(session: Session, exporter: Exporter, learn: Learn) {
+  const { store } = session;
   const switches = (keys: readonly Switch[]) => keys.map((key) =>
     toggle(...kSwitchTitles[key], (s) => s[key], store, (s) => ({ [key]: !s[key] })));
   const tempos = kTempos.map((tempo) => toggle(...kTempoTitles[tempo], (s) => s.tempo === tempo,
     store, () => ({ tempo })));
-  const cards = new StyleCards(page), active = new ActiveStyles(page), gestures = new Gestures(page);
+  const cards = new StyleCards(session, exporter), active = new ActiveStyles(session);
+  const gestures = new Gestures(session);
   const chips = presets(store), found = search(cards);
   const pad = buildPad(store, kCorners);
   const act = (id: string, text: string, hint: string, press: () => void, can: () => boolean) => {
@@ -155,7 +158,7 @@ export function buildPanel(page: Page) {
     learn.section,
     found.field, found.none, cards.element, gestures.element,
     element('h2', {}, 'Mixes'), chips.group,
-    element('h2', {}, 'Input'), page.removal.element,
+    element('h2', {}, 'Input'), session.removal.element,
     element('h2', {}, 'Blend of four'), pad.element,
     element('h2', {}, 'Person'), ...personControls(store),
     element('div', { class: 'chips', role: 'group', 'aria-label': 'Crowd' }, ...switches(['mixed'])),
@@ -188,7 +191,6 @@ export function buildPanel(page: Page) {
     find('#styles-wait').remove();
     find('#panel').removeAttribute('aria-busy');
   };
-  setStyles(page.panache.styles);
   return { cards, active, setStyles, showStyles };
 }
 

@@ -1,10 +1,7 @@
 // All settings, and their conversion to and from the page's address.
 
 import type { Person, Shape, Timing } from '../package/index.js';
-import { fromText, toText, type Key } from './keys';
-
-export const kMin = -0.5;
-export const kMax = 2;
+import { bounded, fromText, kMax, kMin, toText, type Key } from './keys';
 
 export const kRegions = ['legs', 'torso', 'leftArm', 'rightArm'] as const;
 export const kAmounts =
@@ -49,12 +46,6 @@ export const kDefaults: Readonly<Settings> = {
 };
 /** What a visitor sees first. */
 export const kOpening: Readonly<Settings> = { ...kDefaults, styles: { old: 1 } };
-
-/** Clamps to the bounds and rounds to two decimals; returns `otherwise` if not finite. */
-export function bounded(value: number, min: number, max: number, otherwise: number): number {
-  if (!Number.isFinite(value)) return otherwise;
-  return Math.round(Math.min(max, Math.max(min, value)) * 100) / 100 || 0;
-}
 
 // Styles have a prefix in the address, as a learnt style may have the name of a setting.
 const kStyle = 'style.';

@@ -1,9 +1,11 @@
 // Keyboard shortcuts; help.ts lists them.
 
-import type { Page } from './page';
+import type { Store } from './settings';
+import type { Stage } from './stage';
 
 /** `keys`: actions by key code, except for keys that are held or combined with Ctrl. */
-export function listenToKeys({ store, help, stage }: Page, keys: Record<string, () => void>) {
+export function listenToKeys(store: Store, stage: Stage, help: HTMLDialogElement,
+    keys: Record<string, () => void>) {
   addEventListener('keydown', (event) => {
     const target = event.target as HTMLElement;
     const typing = target.matches('input:not([type=range]), textarea');

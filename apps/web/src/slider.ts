@@ -1,7 +1,7 @@
 // A labelled number: a slider, a field for the exact value, and a reset button.
 
 import { button, element, hinted } from './dom';
-import { bounded } from './settings';
+import { bounded } from './keys';
 
 export interface SliderOptions {
   id: string;

@@ -3,8 +3,9 @@
 import type { Style } from '../package/index.js';
 import { attempt } from './alerts';
 import { button, element, hinted } from './dom';
+import type { Exporter } from './exporter';
 import { capitalized, groupStyles, matches } from './groups';
-import type { Page } from './page';
+import type { Session } from './session';
 
 const kManyStyles = 20;  // With more, only the first group is initially open.
 
@@ -31,8 +32,8 @@ export class StyleCards {
   #open = new Map<string, boolean>();  // The groups that the user opened or closed.
   #words: string[] = [];
 
-  constructor(private page: Page) {
-    page.store.listen(() => this.#show());
+  constructor(private session: Session, private exporter: Exporter) {
+    session.store.listen(() => this.#show());
   }
 
   /** The buttons with a figure, by style name. */
@@ -97,17 +98,17 @@ export class StyleCards {
 
   #make(style: Style): Card {
     const { name, description, learnt, thumbnail } = style;
-    const play = button('', () => this.page.playStyle(name), { class: 'play', title: description,
+    const play = button('', () => this.session.playStyle(name), { class: 'play', title: description,
       'data-style': name, 'data-arrows': true });
     play.append(element('span', { class: 'name' }, capitalized(name)));
     play.addEventListener('keydown', (event) => this.#walk(play, event));
-    const card = element('div', { class: 'card' }, play, button('+', () => this.page.addStyle(name),
+    const card = element('div', { class: 'card' }, play, button('+', () => this.session.addStyle(name),
       { class: 'add', ...hinted(`Add ${name} to the active styles`) }));
     if (learnt) {
       card.append(element('p', { class: 'own' },
-        button('Save', () => this.page.exporter.saveStyle(name),
+        button('Save', () => this.exporter.saveStyle(name),
           hinted(`Save ${name} as a style file`)),
-        button('Remove', () => void attempt(() => this.page.removeStyle(name)),
+        button('Remove', () => void attempt(() => this.session.removeStyle(name)),
           hinted(`Remove ${name}`))));
     }
     if (thumbnail) {
@@ -121,7 +122,7 @@ export class StyleCards {
 
   #show() {
     for (const { style: { name }, element: card, play } of this.#cards) {
-      const active = this.page.isActive(name);
+      const active = this.session.isActive(name);
       card.classList.toggle('active', active);
       play.setAttribute('aria-pressed', String(active));
     }
@@ -137,7 +138,7 @@ export class StyleCards {
     if (fold && !fold.open) fold.querySelector('summary')!.click();
     next.play.focus();
     next.element.scrollIntoView({ block: 'nearest' });
-    this.page.playStyle(next.style.name, true);
+    this.session.playStyle(next.style.name, true);
   }
 
   /** The card that an arrow key leads to, null if there is none; undefined for other keys. */

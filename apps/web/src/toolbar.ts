@@ -2,11 +2,12 @@
 
 import { attempt } from './alerts';
 import { button, element, find } from './dom';
+import type { Exporter } from './exporter';
 import { capitalized } from './groups';
-import type { Page } from './page';
 import { buildViewSaving } from './save_view';
-import { toAddress } from './settings';
-import { walkSource } from './source';
+import type { Session } from './session';
+import { toAddress, type Store } from './settings';
+import type { Stage } from './stage';
 import { kPaces, type Pace } from './steering';
 
 /** Shows the walker's pace. */
@@ -62,7 +63,7 @@ function buildMenu(id: string, text: string, title: string,
   return menu;
 }
 
-function saveMenu({ stage, exporter, store }: Page) {
+function saveMenu(stage: Stage, exporter: Exporter, store: Store) {
   const view = buildViewSaving(stage, exporter);
   const link = act('copy-link', 'Copy link', 'A link to this page with these settings',
     async () => {
@@ -86,26 +87,25 @@ function saveMenu({ stage, exporter, store }: Page) {
   return [...view.stoppers, menu];
 }
 
-/** Lists files to choose from, if there are several. */
-export function listFiles(files: readonly File[]) {
-  const menu = find<HTMLSelectElement>('#files');
-  menu.replaceChildren(...files.map(({ name }, i) => element('option', { value: i }, name)));
-  menu.hidden = files.length < 2;
-}
-
-export function buildFileControls(page: Page) {
+export function buildFileControls(session: Session, stage: Stage, exporter: Exporter) {
   const input = find<HTMLInputElement>('#file');
   input.addEventListener('change', () => {
     const files = [...(input.files ?? [])];
     input.value = '';
-    void attempt(() => page.openAll(files));
+    void attempt(() => session.openAll(files));
   });
   const menu = element('select', { id: 'files', 'aria-label': 'Opened files', hidden: true });
-  menu.addEventListener('change', () => void attempt(() => page.open(page.files[Number(menu.value)])));
+  menu.addEventListener('change',
+    () => void attempt(() => session.open(session.files[Number(menu.value)])));
+  session.listen('files', () => {
+    const { files } = session;
+    menu.replaceChildren(...files.map(({ name }, i) => element('option', { value: i }, name)));
+    menu.hidden = files.length < 2;
+  });
   find('#file-controls').append(menu,
-    act('back', 'Walker', 'Close the file and steer the walker again', () => page.use(walkSource(page.panache))),
+    act('back', 'Walker', 'Close the file and steer the walker again', () => session.walk()),
     act('open', 'Open …',
       'BVH, GLB, glTF, VRM or VRMA files, a model or a style; or drop them on the view',
       () => input.click()),
-    ...saveMenu(page));
+    ...saveMenu(stage, exporter, session.store));
 }

@@ -3,9 +3,8 @@
 import type { Style } from '../package/index.js';
 import { button, element, find, placeIn } from './dom';
 import { styleOptions } from './groups';
-import { moved, strengthAt, withKey, type Key } from './keys';
-import type { Page } from './page';
-import { kMin, kMax } from './settings';
+import { kMin, kMax, moved, strengthAt, withKey, type Key } from './keys';
+import type { Session } from './session';
 
 const kPush = 0.05;
 const kDoubleClick = 1000;  // Milliseconds, for slow fingers.
@@ -25,7 +24,7 @@ export class Track {
   #pressed = -1;  // Index of the key under the last click.
   #added = -Infinity;  // Time of the last click that added a key, milliseconds.
 
-  constructor(private page: Page) {
+  constructor(private session: Session) {
     this.#field.innerHTML =
       '<svg viewBox="0 0 100 100" preserveAspectRatio="none" aria-hidden="true"><polyline/></svg>';
     this.#line = this.#field.querySelector('polyline')!;
@@ -38,7 +37,7 @@ export class Track {
     find('#keys').append(this.#styles, this.#field, add, clear);
     this.#styles.addEventListener('change', () => this.#show());
     this.#listenToPointer();
-    page.store.listen(() => {
+    session.store.listen(() => {
       this.#show();
       clear.disabled = this.keys.length === 0;
     });
@@ -48,7 +47,7 @@ export class Track {
     return this.#styles.value;
   }
   get keys(): readonly Key[] {
-    return this.page.store.settings.keys[this.style] ?? [];
+    return this.session.store.settings.keys[this.style] ?? [];
   }
 
   open(open: boolean) {
@@ -74,9 +73,9 @@ export class Track {
 
   /** Adds a key at the play head. */
   add() {
-    const { source } = this.page;
+    const { source } = this.session;
     const now = source.kind === 'clip' ? source.player.seconds : 0;
-    const { keys, index } = withKey(this.keys, now, this.page.strengthOf(this.style));
+    const { keys, index } = withKey(this.keys, now, this.session.strengthOf(this.style));
     this.open(true);
     this.#set(keys);
     this.#keys[index]?.focus();
@@ -84,14 +83,14 @@ export class Track {
 
   // Chooses a style that has keys, else an active one.
   #choose() {
-    const { keys, styles } = this.page.store.settings;
+    const { keys, styles } = this.session.store.settings;
     const wanted = [...Object.keys(keys), ...Object.keys(styles)]
       .find((name) => [...this.#styles.options].some((option) => option.value === name));
     if (wanted && !keys[this.style]) this.#styles.value = wanted;
   }
 
   #set(keys: readonly Key[]) {
-    this.page.store.setKeys(this.style, keys);
+    this.session.store.setKeys(this.style, keys);
   }
   #across(seconds: number) {
     return this.#seconds > 0 ? Math.min(100, (100 * seconds) / this.#seconds) : 0;
@@ -107,7 +106,7 @@ export class Track {
       `Keyframes of ${this.style}: click to add one, Delete removes the one that has the focus`);
     const points: Key[] = keys.length
       ? [[0, keys[0][1]], ...keys, [this.#seconds, strengthAt(keys, this.#seconds)]]
-      : [[0, this.page.strengthOf(this.style)], [this.#seconds, this.page.strengthOf(this.style)]];
+      : [[0, this.session.strengthOf(this.style)], [this.#seconds, this.session.strengthOf(this.style)]];
     this.#line.setAttribute('points',
       points.map(([t, s]) => `${this.#across(t)},${this.#down(s)}`).join(' '));
     this.#line.classList.toggle('constant', keys.length === 0);
@@ -147,8 +146,8 @@ export class Track {
   #move(index: number, seconds: number, strength: number) {
     const keys = moved(this.keys, index, seconds, strength, this.#seconds);
     this.#set(keys);
-    this.page.transport.setPlaying(false);
-    this.page.seek(keys[index][0]);
+    this.session.pause();
+    this.session.seek(keys[index][0]);
   }
   #remove(index: number) {
     this.#set(this.keys.filter((_, i) => i !== index));

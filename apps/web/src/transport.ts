@@ -4,7 +4,7 @@ import type { MotionFile } from '../package/index.js';
 import { attempt } from './alerts';
 import { button, element, find, hinted } from './dom';
 import { motionOptions } from './groups';
-import type { Page } from './page';
+import type { Session } from './session';
 import type { ClipSource } from './source';
 
 const kSpeeds = [0.25, 0.5, 1, 1.5, 2];
@@ -36,7 +36,7 @@ export class TransportBar {
   #loop = button('Loop', () => {
     this.state.loop = !this.state.loop;
     this.#loop.setAttribute('aria-pressed', String(this.state.loop));
-    if (this.page.source.kind === 'clip') this.page.source.player.loop = this.state.loop;
+    if (this.session.source.kind === 'clip') this.session.source.player.loop = this.state.loop;
   }, { id: 'loop', 'aria-pressed': 'true' });
   #seconds = 0;
   /** "73 / 180" */
@@ -45,16 +45,16 @@ export class TransportBar {
   #in = 0;
   #out: number | null = null;
 
-  constructor(private page: Page) {
+  constructor(private session: Session) {
     const speed = element('select', { id: 'speed', 'aria-label': 'Speed' },
       ...kSpeeds.map((s) => element('option', { value: s, selected: s === 1 }, `${s}×`)));
     const row = (name: string, ...parts: HTMLElement[]) =>
       find('#clip-controls').append(element('div', { class: name }, ...parts));
     row('time-row',
-      button('‹', () => page.stepFrames(-1),
+      button('‹', () => session.stepFrames(-1),
         { id: 'back-frame', ...hinted('One frame back (comma)') }),
       this.#play,
-      button('›', () => page.stepFrames(1),
+      button('›', () => session.stepFrames(1),
         { id: 'next-frame', ...hinted('One frame on (full stop)') }),
       element('span', { class: 'track' }, this.#scrub, this.#range),
       element('output', { 'aria-live': 'off' }, this.#time, this.#frameNow));
@@ -66,13 +66,17 @@ export class TransportBar {
       this.#clips, this.#loop, speed,
       element('label', { class: 'word rate', for: 'fps' }, 'fps'), this.#rate);
     this.#scrub.addEventListener('input', () => {
-      page.seek(Number(this.#scrub.value) * this.#seconds);
+      session.seek(Number(this.#scrub.value) * this.#seconds);
     });
     this.#clips.addEventListener('change',
-      () => void attempt(() => page.playClip(Number(this.#clips.value))));
-    this.#rate.addEventListener('change',
-      () => void attempt(() => page.setRate(Number(this.#rate.value))));
+      () => void attempt(() => session.playClip(Number(this.#clips.value))));
+    this.#rate.addEventListener('change', () => {
+      const fps = Number(this.#rate.value), { source } = session;
+      if (source.kind === 'clip') this.showRate(source.file, source.clip);  // Kept if opening fails.
+      void attempt(() => session.setRate(fps));
+    });
     speed.addEventListener('change', () => (this.state.speed = Number(speed.value)));
+    session.pause = () => this.setPlaying(false);
     this.setPlaying(true);
   }
 
@@ -107,7 +111,7 @@ export class TransportBar {
   setPlaying(playing: boolean) {
     // Playing from the end starts again.
     const [begin, end] = this.range;
-    if (playing && !this.state.loop && this.#now >= end - 1e-3) this.page.seek(begin);
+    if (playing && !this.state.loop && this.#now >= end - 1e-3) this.session.seek(begin);
     this.state.playing = playing;
     this.#play.textContent = playing ? 'Pause' : 'Play';
   }

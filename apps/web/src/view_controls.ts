@@ -2,21 +2,21 @@
 
 import { kAngles, type Angle } from './camera';
 import { button, element, find, hinted } from './dom';
-import type { Page } from './page';
+import type { Stage } from './stage';
 
-export function buildViewControls(page: Page) {
+export function buildViewControls(stage: Stage, look: (angle: Angle) => void, help: HTMLDialogElement) {
   const names = { face: 'Camera', front: 'Front', side: 'Side', top: 'Top', orbit: 'Orbit' };
   const menu = element('select', { id: 'angle', 'aria-label': 'Camera', title: 'Camera (1 to 4)' },
     ...kAngles.map((angle) => element('option', { value: angle }, names[angle])));
   menu.addEventListener('change', () => {
-    page.look(menu.value as Angle);
+    look(menu.value as Angle);
     menu.blur();
   });
   const compare = button('Show input (hold)', () => {},
     { id: 'compare', ...hinted('Hold to see the input alone (X)') });
-  compare.addEventListener('pointerdown', () => (page.stage.comparing = true));
+  compare.addEventListener('pointerdown', () => (stage.comparing = true));
   for (const end of ['pointerup', 'pointerleave', 'pointercancel']) {
-    compare.addEventListener(end, () => (page.stage.comparing = false));
+    compare.addEventListener(end, () => (stage.comparing = false));
   }
   const whole = button('Full screen', () => {
     if (document.fullscreenElement) void document.exitFullscreen();
@@ -39,8 +39,8 @@ export function buildViewControls(page: Page) {
   find('#camera').append(menu,
     button('Fit', () => {
       menu.value = 'face';
-      page.look('face');
+      look('face');
     }, { id: 'fit', ...hinted('Face the character and fit it in the view (F)') }),
     compare, whole,
-    button('?', () => page.help.showModal(), { id: 'show-help', ...hinted('Help: keys and more') }));
+    button('?', () => help.showModal(), { id: 'show-help', ...hinted('Help: keys and more') }));
 }

@@ -1,7 +1,8 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
 
+import { bounded } from '../src/keys';
 import {
-  bounded, fromAddress as read, kDefaults, kOpening, personOf, shapeOf, Store, toAddress,
+  fromAddress as read, kDefaults, kOpening, personOf, shapeOf, Store, toAddress,
 } from '../src/settings';
 import { otherSide } from '../src/side';
 
