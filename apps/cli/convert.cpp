@@ -71,10 +71,10 @@ std::string convert_whole(const MotionFile& motion, FileJob& file, const MotionF
   }
   for (const int clip : find_body_motions(motion, options).clips) {
     const std::string& name = names[static_cast<size_t>(clip)];
-    const std::string place = name.empty() ? file.input : file.input + ": " + name;
+    const std::string where = name.empty() ? file.input : file.input + ": " + name;
     // Only a humanoid has steps.
-    const Result<Rig> rig = make_rig(motion.clip(clip), options, place);
-    if (rig) note_rate(motion.clip(clip), *rig, place, file.notes);
+    const Result<Rig> rig = make_rig(motion.clip(clip), options, where);
+    if (rig) note_rate(motion.clip(clip), *rig, where, file.notes);
   }
   return whole_file(motion, file, verb, options);
 }

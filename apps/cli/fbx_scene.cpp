@@ -32,19 +32,19 @@ std::span<aiBone* const> bones_of(const aiMesh& mesh) { return {mesh.mBones, mes
 // Assimp gives every animated node translation, rotation and scale keys. Translations and scales
 // that only repeat the node's own are redundant, but make the joint look as if it moved.
 void drop_idle_keys(aiNodeAnim& channel, const aiNode& node) {
-  aiVector3D scale, place;
+  aiVector3D scale, position;
   aiQuaternion turn;
-  node.mTransformation.Decompose(scale, turn, place);
+  node.mTransformation.Decompose(scale, turn, position);
   // Programs that bake a motion round its world positions, far from the origin. 0.02 mm on a limb
   // is not motion.
-  const float near = 1e-4f * place.Length();
+  const float near = 1e-4f * position.Length();
   const auto idle = [](const aiVectorKey* keys, unsigned count, const aiVector3D& value,
                        float tolerance) {
     return std::all_of(keys, keys + count, [&](const aiVectorKey& key) {
       return (key.mValue - value).Length() <= tolerance;
     });
   };
-  if (idle(channel.mPositionKeys, channel.mNumPositionKeys, place, near)) {
+  if (idle(channel.mPositionKeys, channel.mNumPositionKeys, position, near)) {
     channel.mNumPositionKeys = 0;
   }
   if (idle(channel.mScalingKeys, channel.mNumScalingKeys, scale, 1e-4f * scale.Length())) {
@@ -63,16 +63,16 @@ bool is_always_animated(const aiScene& scene, const aiNode& node) {
   return scene.mNumAnimations > 0 && std::ranges::all_of(animations_of(scene), has_keys);
 }
 
-using Places = std::map<std::string, aiMatrix4x4>;  // World transforms, by node name.
+using Transforms = std::map<std::string, aiMatrix4x4>;  // World transforms, by node name.
 
 // The world transforms of skinned joints in the bind pose. Assimp stores them relative to the
 // mesh's node.
-Places bind_places(const aiScene& scene, const Places& world) {
-  Places out;
-  const auto add = [&](const aiMesh& mesh, const aiMatrix4x4& place) {
+Transforms bind_transforms(const aiScene& scene, const Transforms& world) {
+  Transforms out;
+  const auto add = [&](const aiMesh& mesh, const aiMatrix4x4& transform) {
     for (const aiBone* bone : bones_of(mesh)) {
       if (!is_usable(bone->mOffsetMatrix)) continue;
-      out.emplace(bone->mName.C_Str(), place * aiMatrix4x4(bone->mOffsetMatrix).Inverse());
+      out.emplace(bone->mName.C_Str(), transform * aiMatrix4x4(bone->mOffsetMatrix).Inverse());
     }
   };
   for (const aiNode* node : all_nodes(scene)) {
@@ -83,8 +83,8 @@ Places bind_places(const aiScene& scene, const Places& world) {
   return out;
 }
 
-Places world_places(const aiScene& scene) {
-  Places out;
+Transforms world_transforms(const aiScene& scene) {
+  Transforms out;
   for (const aiNode* node : all_nodes(scene)) {  // Parents before children.
     const aiMatrix4x4 above = node->mParent ? out[node->mParent->mName.C_Str()] : aiMatrix4x4();
     out[node->mName.C_Str()] = above * node->mTransformation;
@@ -95,13 +95,13 @@ Places world_places(const aiScene& scene) {
 // Nodes of an FBX file have their pose at the time of saving, usually the first frame of the
 // motion, but the rest pose should be the skin's bind pose.
 void rest_as_bound(const aiScene& scene) {
-  const Places bound = bind_places(scene, world_places(scene));
-  Places world;
+  const Transforms bound = bind_transforms(scene, world_transforms(scene));
+  Transforms world;
   for (aiNode* node : all_nodes(scene)) {
     const aiMatrix4x4 above = node->mParent ? world[node->mParent->mName.C_Str()] : aiMatrix4x4();
-    const auto place = bound.find(node->mName.C_Str());
-    if (place != bound.end() && is_usable(above) && is_always_animated(scene, *node)) {
-      node->mTransformation = aiMatrix4x4(above).Inverse() * place->second;
+    const auto found = bound.find(node->mName.C_Str());
+    if (found != bound.end() && is_usable(above) && is_always_animated(scene, *node)) {
+      node->mTransformation = aiMatrix4x4(above).Inverse() * found->second;
     }
     world[node->mName.C_Str()] = above * node->mTransformation;
   }
@@ -170,10 +170,10 @@ void remove_scales(const aiScene& scene) {
     }
   }
   const std::vector<aiNode*> nodes = all_nodes(scene);
-  aiVector3D scale, place;
+  aiVector3D scale, position;
   aiQuaternion turn;
   for (const aiNode* node : nodes) {
-    node->mTransformation.Decompose(scale, turn, place);
+    node->mTransformation.Decompose(scale, turn, position);
     const bool even = std::abs(scale.y - scale.x) <= 1e-4f * scale.x &&
                       std::abs(scale.z - scale.x) <= 1e-4f * scale.x;
     if (!even || !std::isnormal(scale.x)) return;
@@ -182,13 +182,13 @@ void remove_scales(const aiScene& scene) {
   for (aiNode* node : nodes) {
     const std::string name = node->mName.C_Str();
     above[name] = node->mParent ? removed[node->mParent->mName.C_Str()] : 1.0f;
-    node->mTransformation.Decompose(scale, turn, place);
+    node->mTransformation.Decompose(scale, turn, position);
     const float all = above[name] * scale.x;
     const bool keeps =
         std::any_of(node->mMeshes, node->mMeshes + node->mNumMeshes,
                     [&](unsigned mesh) { return scene.mMeshes[mesh]->mNumBones == 0; });
     const float own = keeps ? all : 1.0f;
-    node->mTransformation = aiMatrix4x4({own, own, own}, turn, place * above[name]);
+    node->mTransformation = aiMatrix4x4({own, own, own}, turn, position * above[name]);
     removed[name] = all / own;
   }
   for (const aiMesh* mesh : meshes_of(scene)) {

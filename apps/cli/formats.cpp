@@ -54,7 +54,7 @@ class NotedFile : public MotionFile {
 struct OwnBody {
   std::string_view extension;
   Clip (*make)(const Clip& clip, const Rig& rig);
-  RetargetOptions how;
+  RetargetOptions retarget_options;
 };
 constexpr OwnBody kOwnBodies[] = {
     // Arms and legs are as long as the rig's, so directions alone place feet and hands.
@@ -99,7 +99,7 @@ Result<Clip> put_on(const OwnBody& own, const Clip& clip, const Rig& rig) {
   const Clip body = own.make(clip, rig);
   Result<Rig> onto = Rig::create(body);
   if (!onto) return onto.error();
-  Result<Retargeted> done = retarget(clip, rig, body, *onto, own.how);
+  Result<Retargeted> done = retarget(clip, rig, body, *onto, own.retarget_options);
   if (!done) return done.error();
   return std::move(done->clip);
 }

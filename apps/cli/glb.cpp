@@ -46,8 +46,8 @@ std::string find_picture(std::string uri, const fs::path& folder) {
   }
   std::error_code status;
   for (size_t at = 0; at < uri.size();) {
-    const fs::path place = uri.substr(at);
-    if (place.is_relative() && fs::is_regular_file(folder / place, status)) return place.string();
+    const fs::path tail = uri.substr(at);
+    if (tail.is_relative() && fs::is_regular_file(folder / tail, status)) return tail.string();
     const size_t next = uri.find('/', at);
     at = next == std::string::npos ? uri.size() : next + 1;
   }
@@ -84,8 +84,8 @@ int index_in(const GltfJson& object, const char* key, size_t size) {
   if (!object.is_object()) return -1;
   const auto member = object.find(key);
   if (member == object.end() || !member->is_number_unsigned()) return -1;
-  const auto place = member->get<uint64_t>();
-  return place < size ? static_cast<int>(place) : -1;
+  const auto index = member->get<uint64_t>();
+  return index < size ? static_cast<int>(index) : -1;
 }
 
 // The types that glTF supports, "image/png" or "image/jpeg"; else empty.
@@ -103,28 +103,29 @@ class PictureRepair {
 
   void run() {
     GltfJson& images = list_of(json_, "images");
-    std::vector<int> image_places, texture_places;  // New indices; -1 if removed.
+    std::vector<int> image_indices, texture_indices;  // New indices; -1 if removed.
     std::vector<GltfJson> kept;
     for (size_t i = 0; i < images.size(); ++i) {
       const bool good = repair(i);
-      image_places.push_back(good ? static_cast<int>(kept.size()) : -1);
+      image_indices.push_back(good ? static_cast<int>(kept.size()) : -1);
       if (good) kept.push_back(json_["images"][i]);
     }
     const size_t count = images.size();
     GltfJson textures = GltfJson::array();
     for (GltfJson& texture : list_of(json_, "textures")) {
       const int image = index_in(texture, "source", count);
-      const int place = image < 0 ? -1 : image_places[static_cast<size_t>(image)];
-      texture_places.push_back(image >= 0 && place < 0 ? -1 : static_cast<int>(textures.size()));
-      if (texture_places.back() < 0) continue;
-      if (image >= 0) texture["source"] = place;
+      const int new_image = image < 0 ? -1 : image_indices[static_cast<size_t>(image)];
+      texture_indices.push_back(image >= 0 && new_image < 0 ? -1
+                                                            : static_cast<int>(textures.size()));
+      if (texture_indices.back() < 0) continue;
+      if (image >= 0) texture["source"] = new_image;
       textures.push_back(std::move(texture));
     }
     for (GltfJson& material : list_of(json_, "materials")) {
       // A texture replaces the colour in FBX, but is multiplied by it in glTF.
       whiten(material, "pbrMetallicRoughness", "baseColorTexture", "baseColorFactor");
       whiten(material, "", "emissiveTexture", "emissiveFactor");
-      renumber(material, texture_places);
+      renumber(material, texture_indices);
     }
     set_or_drop("images", kept);
     set_or_drop("textures", std::move(textures));
@@ -154,17 +155,18 @@ class PictureRepair {
   }
 
   // Removes missing textures and renumbers the others, in extensions too.
-  static void renumber(GltfJson& object, const std::vector<int>& places) {
+  static void renumber(GltfJson& object, const std::vector<int>& new_indices) {
     if (!object.is_object()) return;
     std::vector<std::string> gone;
     for (auto& [key, value] : object.items()) {
-      const int index = key.ends_with("Texture") ? index_in(value, "index", places.size()) : -1;
+      const int index =
+          key.ends_with("Texture") ? index_in(value, "index", new_indices.size()) : -1;
       if (index < 0) {
-        renumber(value, places);
+        renumber(value, new_indices);
         continue;
       }
-      value["index"] = places[static_cast<size_t>(index)];
-      if (places[static_cast<size_t>(index)] < 0) gone.push_back(key);
+      value["index"] = new_indices[static_cast<size_t>(index)];
+      if (new_indices[static_cast<size_t>(index)] < 0) gone.push_back(key);
     }
     for (const std::string& key : gone) object.erase(key);
   }

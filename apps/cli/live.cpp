@@ -70,7 +70,7 @@ Result<void> check_no_circle(const sockaddr_in& in, const sockaddr_in& out) {
 }
 
 // What to do where no motion comes in.
-std::string how_to_connect(const sockaddr_in& in) {
+std::string connect_hint(const sockaddr_in& in) {
   const bool all = ntohl(in.sin_addr.s_addr) == INADDR_ANY;
   const std::string port = std::to_string(ntohs(in.sin_port));
   return "no motion comes in yet: let the tracker send VMC (its settings call it VMC or OSC) to " +
@@ -92,7 +92,7 @@ void relay_until_stopped(VmcRelay& relay, const sockaddr_in& in, bool quiet) {
     // Silence is told once.
     if (!quiet && !line.empty()) print_message(line);
     if (!quiet && line.empty() && !silent) {
-      print_message(relay.senders() == 0 ? how_to_connect(in) : "no motion comes in any more");
+      print_message(relay.senders() == 0 ? connect_hint(in) : "no motion comes in any more");
     }
     silent = line.empty();
   }
@@ -150,15 +150,15 @@ int live(const Options& options) {
     return fail({"--record " + options.record + ": expected a name that ends in .bvh"}, kBadUsage);
   }
   if (!options.record.empty()) need(check_output("", options.record, options.force));
-  LiveOptions how = options.time;
-  need(read_shape(options.shape, how.stylizer), kBadUsage);
+  LiveOptions live_options = options.time;
+  need(read_shape(options.shape, live_options.stylizer), kBadUsage);
   const std::string path = need(find_model(options.model));
   const std::shared_ptr<const Model> model = need(Model::load(path));
   const std::vector<float> strengths = read_styles(options.styles, *model);
-  how.stylizer.sides = need(parse_sides(options.sides, *model), kBadUsage);
+  live_options.stylizer.sides = need(parse_sides(options.sides, *model), kBadUsage);
   const std::optional<PersonWish> person = read_person_options(options.person, *model);
   const std::optional<Removal> removal = read_removal(options.removal);
-  if (removal) how.remover = removal->remover;
+  if (removal) live_options.remover = removal->remover;
   if (auto good = LiveStylizer::check(*model, options.time); !good) {
     throw Failure{{path + ": " + good.error().message}, kBadUsage};
   }
@@ -181,10 +181,11 @@ int live(const Options& options) {
   watch_stop_signals();
   const Serving serving(server.get());
   VmcRecording recording;
-  VmcRelay relay(std::move(socket), out,
-                 {model, how, removal ? removal->style : -1, options.mirror, options.smooth,
-                  options.record.empty() ? nullptr : &recording, server ? &view : nullptr},
-                 strengths, person);
+  VmcRelay relay(
+      std::move(socket), out,
+      {model, live_options, removal ? removal->style : -1, options.mirror, options.smooth,
+       options.record.empty() ? nullptr : &recording, server ? &view : nullptr},
+      strengths, person);
   if (!options.quiet) {
     print_message("relaying from " + listened_at(in) + " to " + to_string(out) +
                   " until Ctrl-C ends it");

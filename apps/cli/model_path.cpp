@@ -51,8 +51,8 @@ Result<void> check_writable(const std::string& path) {
 
 Result<void> replace_model(const std::string& path, const TensorFile& model) {
   std::error_code status;
-  const std::string place = std::filesystem::canonical(path, status).string();
-  return write_file(place, format_safetensors(model), true);
+  const std::string target = std::filesystem::canonical(path, status).string();
+  return write_file(target, format_safetensors(model), true);
 }
 
 }  // namespace panache::cli

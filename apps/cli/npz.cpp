@@ -20,9 +20,9 @@ constexpr zip_int64_t kMaxMembers = 1000;
 
 // The bytes of a member, or slightly more than `max` of them; the size in its header is not
 // trusted.
-Result<std::string> unpack(zip_t* zip, zip_uint64_t which, size_t max, const std::string& place) {
+Result<std::string> unpack(zip_t* zip, zip_uint64_t which, size_t max, const std::string& where) {
   zip_file_t* file = zip_fopen_index(zip, which, 0);
-  if (!file) return Error{place + ": cannot be unpacked: " + zip_strerror(zip)};
+  if (!file) return Error{where + ": cannot be unpacked: " + zip_strerror(zip)};
   std::string out;
   std::vector<char> block(1 << 16);
   zip_int64_t got = 0;
@@ -31,7 +31,7 @@ Result<std::string> unpack(zip_t* zip, zip_uint64_t which, size_t max, const std
   }
   const std::string message = got < 0 ? zip_file_strerror(file) : "";
   zip_fclose(file);
-  if (!message.empty()) return Error{place + ": cannot be unpacked: " + message};
+  if (!message.empty()) return Error{where + ": cannot be unpacked: " + message};
   return out;
 }
 

@@ -36,7 +36,7 @@ CLI::Option* add_onto_options(CLI::App& verb, OntoFlags& flags) {
   return onto;
 }
 
-void add_place_options(CLI::App& verb, PlaceFlags& flags, const std::string& whose) {
+void add_edit_options(CLI::App& verb, EditFlags& flags, const std::string& whose) {
   CLI::Option* replace = verb.add_flag(
       "--replace", flags.replace,
       "Replace " + whose + " instead of adding\nnew ones (a BVH file holds only one)");
@@ -50,7 +50,7 @@ void add_place_options(CLI::App& verb, PlaceFlags& flags, const std::string& who
   first->excludes(replace);
 }
 
-EditMode edit_mode(const PlaceFlags& flags, bool onto) {
+EditMode edit_mode(const EditFlags& flags, bool onto) {
   if (flags.last) return EditMode::add_beside;
   return flags.replace || (onto && !flags.first) ? EditMode::replace : EditMode::add_first;
 }
@@ -72,7 +72,7 @@ std::vector<ClipEdit> edits_of(const std::vector<NewMotion>& motions) {
   return edits;
 }
 
-void name_new_motions(FileJob& file, const std::vector<std::string>& has, const PlaceFlags& flags,
+void name_new_motions(FileJob& file, const std::vector<std::string>& has, const EditFlags& flags,
                       bool onto, std::vector<NewMotion>& motions) {
   const bool are_named = !holds_one_motion(extension_of(file.output)) && !flags.replace;
   const EditMode mode = edit_mode(flags, onto);
@@ -124,15 +124,15 @@ Result<void> CharacterFile::check_outputs(const std::vector<FileJob>& files) con
   return {};
 }
 
-Result<Clip> CharacterFile::put(const Clip& motion, const Rig& rig, const std::string& place,
+Result<Clip> CharacterFile::put(const Clip& motion, const Rig& rig, const std::string& where,
                                 const RetargetOptions& options) const {
   Result<Retargeted> done = retarget(motion, rig, clip_, rig_, options);
-  if (!done) return located(place + " onto " + path_, done.error());
+  if (!done) return located(where + " onto " + path_, done.error());
   return std::move(done->clip);
 }
 
-Result<Rig> CharacterFile::rig_of(const Clip& clip, const std::string& place) const {
-  return make_rig(clip, options_, place + " onto " + path_);
+Result<Rig> CharacterFile::rig_of(const Clip& clip, const std::string& where) const {
+  return make_rig(clip, options_, where + " onto " + path_);
 }
 
 Result<std::string> CharacterFile::encode(const std::vector<NewMotion>& motions, EditMode mode,

@@ -25,14 +25,14 @@ struct OntoFlags {
 CLI::Option* add_onto_options(CLI::App& verb, OntoFlags& flags);
 
 // By default new motions come first in their input file, and replace all in a character's file.
-struct PlaceFlags {
+struct EditFlags {
   bool replace = false, first = false, last = false;
 };
 // Gives `verb` --replace, --first and --last, which exclude each other; `whose` says in the help
 // which motions are replaced.
-void add_place_options(CLI::App& verb, PlaceFlags& flags, const std::string& whose);
+void add_edit_options(CLI::App& verb, EditFlags& flags, const std::string& whose);
 // `onto`: new motions go into a character's file.
-EditMode edit_mode(const PlaceFlags& flags, bool onto);
+EditMode edit_mode(const EditFlags& flags, bool onto);
 
 // The options common to retarget, convert and stylize.
 struct MotionFlags {
@@ -40,7 +40,7 @@ struct MotionFlags {
   ReadOptions read;
   RigFlags rig;
   OntoFlags onto;
-  PlaceFlags place;
+  EditFlags edit;
   std::string clip;       // The motion to use, or empty for all.
   bool in_place = false;  // See stay_in_place().
   bool no_body = false;   // A stick figure instead of a body if joints have no mesh.
@@ -63,7 +63,7 @@ std::vector<ClipEdit> edits_of(const std::vector<NewMotion>& motions);
 // Gives new motions names that differ from each other and from those in `has`, and adds a line that
 // lists them to `file`. Names stay for a BVH output, which stores none, and if the motions replace
 // others and take their names.
-void name_new_motions(FileJob& file, const std::vector<std::string>& has, const PlaceFlags& flags,
+void name_new_motions(FileJob& file, const std::vector<std::string>& has, const EditFlags& flags,
                       bool onto, std::vector<NewMotion>& motions);
 
 class CharacterFile {
@@ -77,11 +77,11 @@ class CharacterFile {
   // Rejects outputs whose format the character cannot be written in.
   Result<void> check_outputs(const std::vector<FileJob>& files) const;
 
-  // The motion retargeted to the character. Failure messages begin with `place`.
-  Result<Clip> put(const Clip& motion, const Rig& rig, const std::string& place,
+  // The motion retargeted to the character. Failure messages begin with `where`.
+  Result<Clip> put(const Clip& motion, const Rig& rig, const std::string& where,
                    const RetargetOptions& options = {}) const;
   // The rig of a motion after put().
-  Result<Rig> rig_of(const Clip& clip, const std::string& place) const;
+  Result<Rig> rig_of(const Clip& clip, const std::string& where) const;
 
   // The bytes of the character's file with these motions; other formats get the joints only, and
   // one motion.

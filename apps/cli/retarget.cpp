@@ -31,12 +31,12 @@ void retarget_file(FileJob& file, const CharacterFile& character, const MotionFl
   for (const int which :
        need(pick_clips(*motion, flags.clip, rig_options, file.input, file.notes))) {
     const std::string& name = names[static_cast<size_t>(which)];
-    const std::string place = name.empty() ? file.input : file.input + ": " + name;
+    const std::string where = name.empty() ? file.input : file.input + ": " + name;
     const Clip& from = motion->clip(which);
     try {
-      const Rig rig = need(make_rig(from, rig_options, place));
-      Clip put = need(character.put(from, rig, place, options));
-      if (flags.in_place) stay_in_place(need(character.rig_of(put, place)), put);
+      const Rig rig = need(make_rig(from, rig_options, where));
+      Clip put = need(character.put(from, rig, where, options));
+      if (flags.in_place) stay_in_place(need(character.rig_of(put, where)), put);
       file.clips.push_back({{"name", name},
                             {"frames_in", from.frames},
                             {"frames", put.frames},
@@ -44,7 +44,7 @@ void retarget_file(FileJob& file, const CharacterFile& character, const MotionFl
       file.frames += put.frames;
       file.seconds += put.duration();
       if (file.mapping.is_null()) file.mapping = mapping_json(rig);
-      note_rate(from, rig, place, file.notes);
+      note_rate(from, rig, where, file.notes);
       note_remarks(rig, file.input, file.notes);
       motions.push_back({std::move(put), title_of(name, file.input)});
     } catch (const Failure& failure) {
@@ -55,10 +55,10 @@ void retarget_file(FileJob& file, const CharacterFile& character, const MotionFl
   for (const Error& failure : failures) {
     file.notes.push_back(failure.message + "; this motion is left out");
   }
-  name_new_motions(file, character.clip_names(), flags.place, true, motions);
+  name_new_motions(file, character.clip_names(), flags.edit, true, motions);
   write_output(
       file,
-      need(character.encode(motions, edit_mode(flags.place, true), file.output, flags.no_body)),
+      need(character.encode(motions, edit_mode(flags.edit, true), file.output, flags.no_body)),
       flags.batch.force);
 }
 
@@ -87,7 +87,7 @@ void add_retarget(CLI::App& app, int& exit_code) {
   add_onto_options(*verb, options->onto)->required();
   add_option(*verb, "--clip NAME", options->clip,
              "Motion to take, if a file has several; default: all");
-  add_place_options(*verb, options->place, "the character's animations");
+  add_edit_options(*verb, options->edit, "the character's animations");
   add_result_options(*verb, *options);
   verb->add_flag("--no-feet", options->no_feet, "Do not correct feet and floor contact");
   verb->add_flag("--no-hands", options->no_hands, "Do not correct hands that touch");

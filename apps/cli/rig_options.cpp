@@ -68,7 +68,7 @@ Result<void> put_list(const Json& list, const std::string& name, std::map<int, s
   return {};
 }
 
-std::string place_in(const std::string& text, size_t byte) {
+std::string position_in(const std::string& text, size_t byte) {
   const std::string_view before = std::string_view(text).substr(0, byte > 0 ? byte - 1 : 0);
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0.
@@ -118,7 +118,7 @@ Result<std::map<int, std::string>> parse_joint_map(const std::string& text,
   try {
     map = Json::parse(text);
   } catch (const Json::parse_error& error) {
-    return Error{name + ":" + place_in(text, error.byte) + ": " + kExpectedMap};
+    return Error{name + ":" + position_in(text, error.byte) + ": " + kExpectedMap};
   } catch (const Json::out_of_range&) {
     return Error{name + ": " + kExpectedMap + ", found a number that is too large"};
   }

@@ -55,9 +55,9 @@ void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
       ->check(in_range(0, static_cast<double>(GesturePlayer::kMaxOften)));
 }
 
-Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {
+Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& stylizer) {
   Shape shape = flags.shape;
-  how.tempo_everywhere = flags.timing == "all";
+  stylizer.tempo_everywhere = flags.timing == "all";
   const std::optional<float> timing = flags.timing == "steps" || flags.timing == "all" ? 1.0f
                                       : flags.timing == "off"                          ? 0.0f
                                                               : amount(flags.timing);
@@ -87,8 +87,8 @@ Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {
     given[region] = true;
     shape.regions[region] = *value;
   }
-  how.shape = shape;
-  how.gesture_rate = flags.gestures;
+  stylizer.shape = shape;
+  stylizer.gesture_rate = flags.gestures;
   return {};
 }
 

@@ -25,9 +25,9 @@ struct ShapeFlags {
 // Gives `verb` these options; `flags` must outlive it.
 void add_shape_options(CLI::App& verb, ShapeFlags& flags);
 
-// Writes the shape, the timing mode and the gesture rate to `how`. Fails if a region is unknown,
-// out of range or repeated, or if the timing is unknown.
-Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how);
+// Writes the shape, the timing mode and the gesture rate to `stylizer`. Fails if a region is
+// unknown, out of range or repeated, or if the timing is unknown.
+Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& stylizer);
 
 struct RemovalFlags {
   std::string style;     // --remove, or empty.

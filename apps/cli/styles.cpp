@@ -95,9 +95,9 @@ void add_thumbnail(const TensorFile& file, const std::string& path, const std::s
   if (out.metadata.contains("thumbnail") || !model || !found) return;
   const Result<std::shared_ptr<const WalkerModel>> walker = WalkerModel::load(*found);
   if (!walker) return;
-  WalkClipOptions how;
-  how.seconds = 3;
-  const Clip walk = walk_clip(*walker, how);
+  WalkClipOptions walk_options;
+  walk_options.seconds = 3;
+  const Clip walk = walk_clip(*walker, walk_options);
   const Rig rig = *Rig::create(walk);
   RestyleOptions options;
   options.loop = LoopMode::off;

@@ -50,7 +50,7 @@ struct Wanted {
   std::optional<PersonWish> person;
   std::vector<StrengthWish> wishes;
   RigOptions rig;
-  RestyleOptions how;
+  RestyleOptions restyle_options;
   bool in_place = false;
   bool verbose = false;
   std::optional<CharacterFile> onto;
@@ -64,7 +64,7 @@ Json tracks_json(const std::vector<StrengthTrack>& tracks, const Wanted& wanted)
       points.push_back({{"seconds", point.seconds}, {"strength", point.strength}});
     }
     const std::string& name = wanted.model->styles()[static_cast<size_t>(track.style)].name;
-    const double side{side_of(wanted.how.stylizer.sides, track.style)};
+    const double side{side_of(wanted.restyle_options.stylizer.sides, track.style)};
     styles.push_back({{"name", name}, {"side", rounded(side)}, {"points", points}});
   }
   return styles;
@@ -89,10 +89,10 @@ std::string result_name(const std::string& title, const std::string& input, cons
   for (const StrengthWish& wish : wanted.wishes) {
     const std::string& style = wanted.model->styles()[static_cast<size_t>(wish.track.style)].name;
     styles += (styles.empty() ? "" : ", ") + style + " " + describe(wish) +
-              describe_side(side_of(wanted.how.stylizer.sides, wish.track.style));
+              describe_side(side_of(wanted.restyle_options.stylizer.sides, wish.track.style));
   }
   if (wanted.person) styles += (styles.empty() ? "" : ", ") + wanted.person->describe(input);
-  const double energy{wanted.how.stylizer.shape.energy};
+  const double energy{wanted.restyle_options.stylizer.shape.energy};
   if (energy != 1) styles += (styles.empty() ? "" : ", ") + ("energy " + fixed(energy, 2));
   return title + " (" + styles + ")";
 }
@@ -113,11 +113,11 @@ std::vector<RigOptions> figures_to_style(const Clip& clip, const Wanted& wanted)
 
 // Whether a motion shows nothing to take off, because it is neutral; then with a note.
 bool note_neutral(const Removal& removal, const Clip& clip, const Rig& rig,
-                  const std::string& place, FileJob& file) {
+                  const std::string& where, FileJob& file) {
   constexpr float kNeutral = 0.95f;
   const auto shares = recognise_styles(removal.remover, clip, rig);
   if (!shares || shares->front().style >= 0 || shares->front().share < kNeutral) return false;
-  file.notes.push_back(place + ": is " +
+  file.notes.push_back(where + ": is " +
                        fixed(100.0 * static_cast<double>(shares->front().share), 0) +
                        " % neutral, so no style is taken off");
   return true;
@@ -127,40 +127,41 @@ bool note_neutral(const Removal& removal, const Clip& clip, const Rig& rig,
 NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& name,
                        const Wanted& wanted, FileJob& file,
                        const std::function<void(double)>& progress) {
-  const std::string place = name.empty() ? file.input : file.input + ": " + name;
+  const std::string where = name.empty() ? file.input : file.input + ": " + name;
   const std::vector<RigOptions> figures = figures_to_style(motion.clip(which), wanted);
-  Rig rig = need(make_rig(motion.clip(which), figures.front(), place));
+  Rig rig = need(make_rig(motion.clip(which), figures.front(), where));
   if (file.mapping.is_null()) file.mapping = mapping_json(rig);
-  note_rate(motion.clip(which), rig, place, file.notes);
+  note_rate(motion.clip(which), rig, where, file.notes);
   note_remarks(rig, file.input, file.notes);
   // Retargets first and then restyles, with the same result as two runs of the program.
   Clip put;
   if (wanted.onto) {
-    put = need(wanted.onto->put(motion.clip(which), rig, place));
-    rig = need(wanted.onto->rig_of(put, place));
+    put = need(wanted.onto->put(motion.clip(which), rig, where));
+    rig = need(wanted.onto->rig_of(put, where));
   }
   const Clip& clip = wanted.onto ? put : motion.clip(which);
   const std::vector<StrengthTrack> tracks = tracks_for(
       wanted.wishes, rig.first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
-  RestyleOptions how = wanted.how;
+  RestyleOptions restyle_options = wanted.restyle_options;
   if (wanted.person) {
-    how.stylizer.person = wanted.person->numbers_for(file.input, *wanted.model);
+    restyle_options.stylizer.person = wanted.person->numbers_for(file.input, *wanted.model);
   }
   if (figures.size() > 1) {  // They keep the same time.
-    how.timing = false;
-    how.loop = LoopMode::off;
+    restyle_options.timing = false;
+    restyle_options.loop = LoopMode::off;
   }
-  const bool removes = wanted.removal && !note_neutral(*wanted.removal, clip, rig, place, file);
+  const bool removes = wanted.removal && !note_neutral(*wanted.removal, clip, rig, where, file);
   const auto restyle_one = [&](const Clip& from, const Rig& of) {
     Result<Restyled> done =
-        removes ? restyle_without(from, of, *wanted.removal, wanted.model, tracks, how, progress)
-                : restyle(from, of, wanted.model, tracks, how, progress);
-    if (!done) throw Failure{located(place, done.error()), kBadInput};
+        removes ? restyle_without(from, of, *wanted.removal, wanted.model, tracks, restyle_options,
+                                  progress)
+                : restyle(from, of, wanted.model, tracks, restyle_options, progress);
+    if (!done) throw Failure{located(where, done.error()), kBadInput};
     return done;
   };
   Result<Restyled> restyled = restyle_one(clip, rig);
   for (size_t i = 1; i < figures.size(); ++i) {
-    const Rig other = need(make_rig(motion.clip(which), figures[i], place));
+    const Rig other = need(make_rig(motion.clip(which), figures[i], where));
     restyled->clip = std::move(restyle_one(restyled->clip, other)->clip);
     if (wanted.in_place) stay_in_place(other, restyled->clip);
   }
@@ -179,12 +180,12 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
                         {"person", person_json(wanted, file.input)},
                         {"gate", to_json(gate)},
                         {"facts", to_json(facts)}});
-  file.facts.push_back(place + ": " + describe(facts));
+  file.facts.push_back(where + ": " + describe(facts));
   if (wanted.person) {
-    file.facts.push_back(place + ": moves as " + wanted.person->describe(file.input));
+    file.facts.push_back(where + ": moves as " + wanted.person->describe(file.input));
   }
-  if (wanted.verbose) file.details.push_back(place + ": " + describe(gate));
-  if (gate.eased > 0.5) file.notes.push_back(place + ": " + describe_eased(gate));
+  if (wanted.verbose) file.details.push_back(where + ": " + describe(gate));
+  if (gate.eased > 0.5) file.notes.push_back(where + ": " + describe_eased(gate));
   if (wanted.in_place) stay_in_place(rig, restyled->clip);
   file.frames += restyled->clip.frames;
   file.seconds += restyled->clip.duration();
@@ -201,14 +202,14 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
 // another format with the only motion.
 std::string encode(const MotionFile& motion, std::vector<NewMotion> motions, FileJob& file,
                    const Wanted& wanted, const StylizeOptions& options) {
-  const EditMode mode = edit_mode(options.place, wanted.onto.has_value());
+  const EditMode mode = edit_mode(options.edit, wanted.onto.has_value());
   if (wanted.onto) {
-    name_new_motions(file, wanted.onto->clip_names(), options.place, true, motions);
+    name_new_motions(file, wanted.onto->clip_names(), options.edit, true, motions);
     return need(wanted.onto->encode(motions, mode, file.output, options.no_body));
   }
   const bool keeps = keeps_format(extension_of(file.input), extension_of(file.output));
   const std::vector<std::string> has = keeps ? motion.clip_names() : std::vector<std::string>();
-  name_new_motions(file, has, options.place, false, motions);
+  name_new_motions(file, has, options.edit, false, motions);
   if (keeps) {
     return need(in_container(motion.encode(edits_of(motions), mode), file.input, file.output,
                              wanted.rig, options.no_body));
@@ -310,12 +311,12 @@ int stylize(const StylizeOptions& options) {
   need(check_rig_flags(options.rig), kBadUsage);
   need(check_read_options(options.read), kBadUsage);
   Wanted wanted;
-  RestyleOptions& how = wanted.how;
-  need(read_shape(options.shape, how.stylizer), kBadUsage);
-  how.loop = read_loop(options.loop);
-  how.stylizer.foot_lock = !options.no_feet;
+  RestyleOptions& restyle_options = wanted.restyle_options;
+  need(read_shape(options.shape, restyle_options.stylizer), kBadUsage);
+  restyle_options.loop = read_loop(options.loop);
+  restyle_options.stylizer.foot_lock = !options.no_feet;
   // With timing 0, the tempo of a removed style stays, too.
-  how.timing = !options.no_timing && how.stylizer.shape.timing != 0;
+  restyle_options.timing = !options.no_timing && restyle_options.stylizer.shape.timing != 0;
   wanted.in_place = options.in_place;
   wanted.verbose = options.verbose;
   const std::string path = need(find_model(options.model));
@@ -323,7 +324,7 @@ int stylize(const StylizeOptions& options) {
   // Before the files, so that a missing style is reported before a missing output.
   wanted.wishes = collect_wishes(options, *wanted.model);
   need(check_sides_used(options.sides, wanted.wishes, *wanted.model), kBadUsage);
-  how.stylizer.sides = need(parse_sides(options.sides, *wanted.model), kBadUsage);
+  restyle_options.stylizer.sides = need(parse_sides(options.sides, *wanted.model), kBadUsage);
   wanted.removal = read_removal(options.removal);
   wanted.person = read_person_options(options.person, *wanted.model);
   const std::optional<CharacterFile>& onto = wanted.onto;
@@ -364,7 +365,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
   add_option(*verb, "--clip NAME", options->clip,
              "Motion to restyle, if a file has several;\ndefault: all of them");
   add_onto_options(*verb, options->onto);
-  add_place_options(*verb, options->place, "the original animations");
+  add_edit_options(*verb, options->edit, "the original animations");
   add_result_options(*verb, *options);
   add_shape_options(*verb, options->shape);
   add_option(*verb, "--loop LOOP", options->loop,

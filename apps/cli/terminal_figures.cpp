@@ -13,8 +13,8 @@ namespace {
 using enum HumanJoint;
 
 constexpr int kFigures = 6, kColumns = 12, kRows = 11;  // Number of figures; characters per figure.
-constexpr int kWide = 2 * kColumns, kHigh = 4 * kRows;  // In dots: 2 by 4 per character.
-constexpr float kDotsPerMetre = 21;                     // A standing body with raised arms fits.
+constexpr int kWidth = 2 * kColumns, kHeight = 4 * kRows;  // In dots: 2 by 4 per character.
+constexpr float kDotsPerMetre = 21;                        // A standing body with raised arms fits.
 constexpr float kYaw = 0.6f;    // Turned from the side view towards the viewer, radians.
 constexpr float kSkull = 0.1f;  // Radius, metres.
 
@@ -23,11 +23,11 @@ class Dots {
   // Right and up from the lower left corner; dots outside are ignored.
   void set(float x, float y) {
     const auto column = static_cast<int>(std::lround(x)), row = static_cast<int>(std::lround(y));
-    if (column < 0 || column >= kFigures * kWide || row < 0 || row >= kHigh) return;
+    if (column < 0 || column >= kFigures * kWidth || row < 0 || row >= kHeight) return;
     // The bits of a character's dots, from the top row down.
     constexpr std::array<std::array<int, 2>, 4> kBits = {
         {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
-    const int down = kHigh - 1 - row;
+    const int down = kHeight - 1 - row;
     bits_[static_cast<size_t>(down / 4)][static_cast<size_t>(column / 2)] |=
         kBits[static_cast<size_t>(down % 4)][static_cast<size_t>(column % 2)];
   }
@@ -62,8 +62,8 @@ class Dots {
 void draw(const BodyPose& body, int figure, Dots& dots) {
   const Vec3 origin = body.positions[index(hips)];
   const auto on_picture = [&](Vec3 position) {
-    const Vec3 way = rotate(rotation_y(-body.facing - kYaw), position - origin);
-    return Vec3{(static_cast<float>(figure) + 0.5f) * kWide + way.z * kDotsPerMetre,
+    const Vec3 offset = rotate(rotation_y(-body.facing - kYaw), position - origin);
+    return Vec3{(static_cast<float>(figure) + 0.5f) * kWidth + offset.z * kDotsPerMetre,
                 position.y * kDotsPerMetre, 0};
   };
   for (size_t j = 1; j < kHumanJoints; ++j) {

@@ -30,8 +30,8 @@ bool same_bits(const T& a, const T& b) {
 }  // namespace
 
 void VmcCharacter::set_side(int style, float side) {
-  std::vector<float>& sides = how_.options.stylizer.sides;  // Of a stylizer to come.
-  sides.resize(how_.model->styles().size(), 1.0f);
+  std::vector<float>& sides = styling_.options.stylizer.sides;  // Of a stylizer to come.
+  sides.resize(styling_.model->styles().size(), 1.0f);
   sides[static_cast<size_t>(style)] = side;
   if (stylizer_) stylizer_->stylizer().set_side(style, side);
 }
@@ -64,7 +64,7 @@ void VmcCharacter::take_bone(const VmcMessage& bone, std::span<const float> stre
   now_.rotations[b] = bone.rotation;
   // finish_frame() may just have made the rig.
   if (!stylizer_) return;
-  open_.push_back({held_.size() - 1, bone.place, joint_of_[b]});
+  open_.push_back({held_.size() - 1, bone.offset, joint_of_[b]});
   if (seen_ == whole_) finish_frame(strengths);
 }
 
@@ -99,7 +99,7 @@ void VmcCharacter::learn() {
 
 Vec3 VmcCharacter::position_of(const Bones& frame, int bone) const {
   const Vec3 sent = frame.positions[static_cast<size_t>(bone)];
-  return places_ ? sent + (*places_)[static_cast<size_t>(bone)] : sent;
+  return usual_positions_ ? sent + (*usual_positions_)[static_cast<size_t>(bone)] : sent;
 }
 
 Result<void> VmcCharacter::stand() {
@@ -111,8 +111,8 @@ Result<void> VmcCharacter::stand() {
     placed = placed || now_.positions[static_cast<size_t>(b)] != Vec3{};
   }
   if (!placed) {
-    places_ = usual_positions(bones);
-    if (now_.positions[kVmcHips] != Vec3{}) (*places_)[kVmcHips] = {};
+    usual_positions_ = usual_positions(bones);
+    if (now_.positions[kVmcHips] != Vec3{}) (*usual_positions_)[kVmcHips] = {};
   }
   std::array<Vec3, kVmcBones> positions;
   for (int b = 0; b < kVmcBones; ++b) positions[static_cast<size_t>(b)] = position_of(now_, b);
@@ -137,28 +137,29 @@ Result<void> VmcCharacter::stand() {
   options.up_axis = "+Y";
   Result<Rig> rig = Rig::create(clip, options);
   if (!rig) return rig.error();
-  Result<LiveStylizer> stylizer = LiveStylizer::create(how_.model, *std::move(rig), how_.options);
+  Result<LiveStylizer> stylizer =
+      LiveStylizer::create(styling_.model, *std::move(rig), styling_.options);
   if (!stylizer) return stylizer.error();
   stylizer_.emplace(*std::move(stylizer));
-  stylizer_->set_removed(how_.removed);
+  stylizer_->set_removed(styling_.removed);
 
   bones_ = std::move(order);
-  filter_.emplace(bones_, how_.mirror, how_.smooth);
+  filter_.emplace(bones_, styling_.mirror, styling_.smooth);
   whole_ = now_.known;
   for (size_t j = 0; j < bones_.size(); ++j) joint_of_[static_cast<size_t>(bones_[j])] = j;
   pose_ = styled_ = rest_clip(clip.skeleton);
   last_frame_ = now_.seconds;
-  if (how_.view && !how_.view->started()) {
+  if (styling_.view && !styling_.view->started()) {
     shown_ = true;
     Clip first = clip;
     first.resize(1);
-    how_.view->start(stylizer_->stylizer().rig(), first);
+    styling_.view->start(stylizer_->stylizer().rig(), first);
   }
-  if (how_.recording && !how_.recording->started()) {
+  if (styling_.recording && !styling_.recording->started()) {
     records_ = true;
-    how_.recording->start(clip.skeleton);
+    styling_.recording->start(clip.skeleton);
     for (int f = 0; f < clip.frames; ++f) {
-      how_.recording->add(learnt_[static_cast<size_t>(f)].seconds, std::as_const(clip).pose(f));
+      styling_.recording->add(learnt_[static_cast<size_t>(f)].seconds, std::as_const(clip).pose(f));
     }
   }
   return {};
@@ -174,20 +175,20 @@ void VmcCharacter::style(std::span<const float> strengths) {
   filter_->apply(pose, now_.seconds - last_frame_);
   stylizer_->step(pose, strengths, now_.seconds - last_frame_, styled);
   last_frame_ = now_.seconds;
-  for (const Place& place : open_) {
-    std::vector<char>& bytes = held_[place.datagram].bytes;
-    const size_t j = place.joint;
+  for (const BoneSlot& slot : open_) {
+    std::vector<char>& bytes = held_[slot.datagram].bytes;
+    const size_t j = slot.joint;
     const auto b = static_cast<size_t>(bones_[j]);
     if (!same_bits(styled.rotations[j], now_.rotations[b])) {
-      put_rotation(bytes, place.at, styled.rotations[j]);
+      put_rotation(bytes, slot.at, styled.rotations[j]);
     }
     const Vec3 before = position_of(now_, bones_[j]), after = styled.translations[j];
     if (!same_bits(after, before)) {
-      put_position(bytes, place.at, places_ ? now_.positions[b] + (after - before) : after);
+      put_position(bytes, slot.at, usual_positions_ ? now_.positions[b] + (after - before) : after);
     }
   }
-  if (records_) how_.recording->add(now_.seconds, styled);
-  if (shown_) how_.view->show(pose, styled);
+  if (records_) styling_.recording->add(now_.seconds, styled);
+  if (shown_) styling_.view->show(pose, styled);
 }
 
 // Releases datagrams up to the first that holds bones of the current frame.
@@ -196,7 +197,7 @@ void VmcCharacter::release() {
   const auto end = held_.begin() + static_cast<std::ptrdiff_t>(done);
   std::move(held_.begin(), end, std::back_inserter(ready_));
   held_.erase(held_.begin(), end);
-  for (Place& place : open_) place.datagram -= done;
+  for (BoneSlot& slot : open_) slot.datagram -= done;
 }
 
 }  // namespace panache::cli

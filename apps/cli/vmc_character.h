@@ -38,7 +38,7 @@ struct VmcStyling {
 // a bone is repeated, or after a timeout; datagrams are held until their frame is complete.
 class VmcCharacter {
  public:
-  explicit VmcCharacter(VmcStyling how) : how_(std::move(how)) {}
+  explicit VmcCharacter(VmcStyling styling) : styling_(std::move(styling)) {}
 
   // Takes the sender's next datagram and its messages. strengths: one per style of the model.
   void take(Datagram datagram, std::span<const VmcMessage> messages,
@@ -68,7 +68,7 @@ class VmcCharacter {
     std::array<Quat, kVmcBones> rotations{};
   };
   // The position of a bone's values in a held datagram.
-  struct Place {
+  struct BoneSlot {
     size_t datagram;
     size_t at;
     size_t joint;
@@ -78,12 +78,12 @@ class VmcCharacter {
   void take_bone(const VmcMessage& bone, std::span<const float> strengths);
   void learn();
   Result<void> stand();
-  // A bone's position in this frame, metres; see places_.
+  // A bone's position in this frame, metres; see usual_positions_.
   Vec3 position_of(const Bones& frame, int bone) const;
   void style(std::span<const float> strengths);
   void release();
 
-  VmcStyling how_;
+  VmcStyling styling_;
   bool records_ = false, shown_ = false;  // Is recorded; is shown.
 
   Bones now_;
@@ -95,13 +95,13 @@ class VmcCharacter {
   VmcBoneSet whole_;        // Complete frame; has the root only if sent.
   std::vector<int> bones_;  // [joints]
   // Of a sender whose positions are all 0: what is added to them. [bones]
-  std::optional<std::array<Vec3, kVmcBones>> places_;
+  std::optional<std::array<Vec3, kVmcBones>> usual_positions_;
   std::array<size_t, kVmcBones> joint_of_{};  // Joint of each bone.
   Clip pose_, styled_;                        // Single frames.
   double last_frame_ = 0;
 
   std::vector<Datagram> held_, ready_;
-  std::vector<Place> open_;  // In the current frame, by datagram.
+  std::vector<BoneSlot> open_;  // In the current frame, by datagram.
   int frames_ = 0;
   std::string note_;
 };

@@ -55,9 +55,10 @@ void read_bone(VmcMessage& out, std::span<const char> bytes, std::string_view pa
   if (!bone) return;
   out.kind = VmcMessage::bone;
   out.bone_index = *bone;
-  out.place = padded(path.size()) + padded(types.size() + 1) + padded(name.size());
+  out.offset = padded(path.size()) + padded(types.size() + 1) + padded(name.size());
   float n[7];
-  for (size_t i = 0; i < 7; ++i) n[i] = std::bit_cast<float>(read_number(bytes, out.place + 4 * i));
+  for (size_t i = 0; i < 7; ++i)
+    n[i] = std::bit_cast<float>(read_number(bytes, out.offset + 4 * i));
   out.position = mirrored_position({n[0], n[1], n[2]});
   out.rotation = mirrored_rotation({n[3], n[4], n[5], n[6]});
 }
@@ -75,7 +76,7 @@ VmcMessage read_message(std::span<const char> bytes, size_t begin) {
   if (path == kBonePath || path == kRootPath) {
     // The root's values may be followed by scale and offset.
     if (types.starts_with("sfffffff")) read_bone(out, bytes, path, types, string_at(arguments));
-    out.place += begin;
+    out.offset += begin;
   } else if (path == kOkPath || path == kTimePath) {
     out.kind = VmcMessage::frame_end;
   } else if (path == "/panache/reset") {
@@ -155,14 +156,14 @@ std::optional<std::vector<VmcMessage>> read_vmc(std::span<const char> datagram) 
   return out;
 }
 
-void put_position(std::span<char> datagram, size_t place, Vec3 position) {
+void put_position(std::span<char> datagram, size_t offset, Vec3 position) {
   const Vec3 p = mirrored_position(position);
-  put_floats(datagram, place, {p.x, p.y, p.z});
+  put_floats(datagram, offset, {p.x, p.y, p.z});
 }
 
-void put_rotation(std::span<char> datagram, size_t place, Quat rotation) {
+void put_rotation(std::span<char> datagram, size_t offset, Quat rotation) {
   const Quat q = mirrored_rotation(rotation);
-  put_floats(datagram, place + 12, {q.x, q.y, q.z, q.w});
+  put_floats(datagram, offset + 12, {q.x, q.y, q.z, q.w});
 }
 
 std::vector<std::vector<char>> format_vmc(const VmcFrame& frame) {

@@ -32,7 +32,7 @@ struct VmcMessage {
   int bone_index = -1;    // See vmc_bones.h.
   Vec3 position;          // Relative to the parent, metres, Panache's axes.
   Quat rotation;          // Relative to the parent, Panache's axes.
-  size_t place = 0;       // Byte offset of a bone's seven floats in the datagram.
+  size_t offset = 0;      // Byte offset of a bone's seven floats in the datagram.
   std::string name;       // Style name.
   double strength = 0;    // Style strength, not range-checked.
   std::string side_text;  // A style's side, a word or a number, not checked.
@@ -42,8 +42,8 @@ struct VmcMessage {
 std::optional<std::vector<VmcMessage>> read_vmc(std::span<const char> datagram);
 
 // Overwrite a bone's position or rotation.
-void put_position(std::span<char> datagram, size_t place, Vec3 position);
-void put_rotation(std::span<char> datagram, size_t place, Quat rotation);
+void put_position(std::span<char> datagram, size_t offset, Vec3 position);
+void put_rotation(std::span<char> datagram, size_t offset, Quat rotation);
 
 // A frame as sent by `panache live send`.
 struct VmcFrame {

@@ -42,11 +42,11 @@ int VmcLatencies::quantile_us(double share) const {
   return kMax;
 }
 
-VmcRelay::VmcRelay(UdpSocket socket, const sockaddr_in& to, VmcStyling how,
+VmcRelay::VmcRelay(UdpSocket socket, const sockaddr_in& to, VmcStyling styling,
                    std::vector<float> strengths, std::optional<PersonWish> person)
     : socket_(std::move(socket)),
       to_(to),
-      how_(std::move(how)),
+      styling_(std::move(styling)),
       strengths_(std::move(strengths)),
       person_(std::move(person)) {
   senders_.reserve(kMaxSenders);
@@ -104,7 +104,7 @@ void VmcRelay::apply_command(const VmcMessage& message) {
   }
   if (message.kind == VmcMessage::side) apply_side(message);
   if (message.kind != VmcMessage::style) return;
-  const Result<int> style = how_.model->find_style_by_any_name(message.name);
+  const Result<int> style = styling_.model->find_style_by_any_name(message.name);
   const double strength = message.strength;
   if (!style) {
     note_ = with_hint(located("/panache/style", style.error()));
@@ -117,27 +117,27 @@ void VmcRelay::apply_command(const VmcMessage& message) {
 }
 
 void VmcRelay::apply_side(const VmcMessage& message) {
-  const Result<int> style = how_.model->find_style_by_any_name(message.name);
+  const Result<int> style = styling_.model->find_style_by_any_name(message.name);
   const Result<float> side =
-      style ? read_side(*how_.model, *style, message.side_text) : Result<float>(style.error());
+      style ? read_side(*styling_.model, *style, message.side_text) : Result<float>(style.error());
   if (!side) {
     note_ = with_hint(located("/panache/side " + message.name, side.error()));
     return;
   }
-  std::vector<float>& sides = how_.options.stylizer.sides;
-  sides.resize(how_.model->styles().size(), 1.0f);
+  std::vector<float>& sides = styling_.options.stylizer.sides;
+  sides.resize(styling_.model->styles().size(), 1.0f);
   sides[static_cast<size_t>(*style)] = *side;
   for (Sender& sender : senders_) sender.character.set_side(*style, *side);
 }
 
 VmcCharacter VmcRelay::make_character() {
-  VmcStyling how = how_;
+  VmcStyling styling = styling_;
   if (person_) {
     const std::string sender = std::to_string(met_ + 1);
-    how.options.stylizer.person = person_->numbers_for(sender, *how.model);
+    styling.options.stylizer.person = person_->numbers_for(sender, *styling.model);
     note_ = "sender " + sender + " moves as " + person_->describe(sender);
   }
-  return VmcCharacter(std::move(how));
+  return VmcCharacter(std::move(styling));
 }
 
 VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
@@ -197,7 +197,8 @@ std::string VmcRelay::second() {
   for (size_t i = 0; i < strengths_.size(); ++i) {
     if (strengths_[i] == 0) continue;
     neutral = false;
-    line += ", " + how_.model->styles()[i].name + " " + brief(static_cast<double>(strengths_[i]));
+    line +=
+        ", " + styling_.model->styles()[i].name + " " + brief(static_cast<double>(strengths_[i]));
   }
   if (neutral) line += ", neutral";
   second_ = {};

@@ -40,8 +40,8 @@ class VmcRelay {
  public:
   // strengths: one per style of the model. `person`: of the senders; a random one is another one
   // for each, by their order.
-  VmcRelay(UdpSocket socket, const sockaddr_in& to, VmcStyling how, std::vector<float> strengths,
-           std::optional<PersonWish> person);
+  VmcRelay(UdpSocket socket, const sockaddr_in& to, VmcStyling styling,
+           std::vector<float> strengths, std::optional<PersonWish> person);
 
   // Waits briefly for datagrams and sends those that are ready.
   void run_once();
@@ -78,7 +78,7 @@ class VmcRelay {
 
   UdpSocket socket_;
   sockaddr_in to_;
-  VmcStyling how_;
+  VmcStyling styling_;
   std::vector<float> strengths_;  // [styles]
   std::optional<PersonWish> person_;
   std::vector<Sender> senders_;

@@ -71,8 +71,8 @@ class Crowd {
         translations_(walk.joints() * in_.size()) {
     for (size_t i = 0; i < in_.size(); ++i) {
       characters_.push_back(shared.make_character());
-      const size_t place = i * walk.joints();
-      out_.push_back({&rotations_[place].x, &translations_[place].x});
+      const size_t first = i * walk.joints();
+      out_.push_back({&rotations_[first].x, &translations_[first].x});
     }
   }
   ~Crowd() {

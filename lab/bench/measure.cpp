@@ -70,9 +70,9 @@ void evict_caches() noexcept {
 
 double quantile(std::vector<double> values, double at) {
   assert(!values.empty());
-  const auto place = static_cast<ptrdiff_t>(at * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<size_t>(place)];
+  const auto rank = static_cast<ptrdiff_t>(at * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<size_t>(rank)];
 }
 
 int Histogram::bucket(int64_t ns) noexcept {

@@ -16,7 +16,7 @@ namespace {
 using Handle = void*;
 using Status = void*;  // Null on success.
 
-enum Place : size_t {
+enum Function : size_t {
   kGetErrorMessage = 2,
   kCreateEnv = 3,
   kCreateSessionFromArray = 8,
@@ -102,17 +102,17 @@ class OnnxRuntime : public Evaluation {
  private:
   // Calls the function at an index of the table, unless an earlier call has failed.
   template <class... Arguments>
-  void call(Place place, Arguments... arguments) {
+  void call(Function which, Arguments... arguments) {
     if (!problem_.empty()) return;
-    const auto function = reinterpret_cast<Status (*)(Arguments...)>(functions_[place]);
+    const auto function = reinterpret_cast<Status (*)(Arguments...)>(functions_[which]);
     const Status status = function(arguments...);
     if (!status) return;
     const auto message = reinterpret_cast<const char* (*)(Status)>(functions_[kGetErrorMessage]);
     problem_ = message(status);
     release(kReleaseStatus, status);
   }
-  void release(Place place, Handle handle) {
-    if (handle) reinterpret_cast<void (*)(Handle)>(functions_[place])(handle);
+  void release(Function which, Handle handle) {
+    if (handle) reinterpret_cast<void (*)(Handle)>(functions_[which])(handle);
   }
   Handle tensor(std::span<float> numbers) {
     const int64_t shape[] = {1, static_cast<int64_t>(numbers.size())};

@@ -70,18 +70,18 @@ class OneDnnEvaluation : public Evaluation {
       after.append_eltwise(1.0f, dnnl::algorithm::eltwise_elu, 1.0f, 0.0f);
       attributes.set_post_ops(after);
     }
-    const dnnl::inner_product_forward::primitive_desc how(
+    const dnnl::inner_product_forward::primitive_desc description(
         {dnnl::prop_kind::forward_inference, from.get_desc(), as_they_like, bias_like,
          row(layer.outputs)},
         attributes, engine_);
     const dnnl::memory ours({shape, kFloat, Tag::io}, engine_,
                             const_cast<float*>(layer.weights.data()));
-    const dnnl::memory weights(how.weights_desc(), engine_), bias(bias_like, engine_);
+    const dnnl::memory weights(description.weights_desc(), engine_), bias(bias_like, engine_);
     dnnl::reorder(ours, weights).execute(stream_, {{DNNL_ARG_FROM, ours}, {DNNL_ARG_TO, weights}});
     stream_.wait();
     std::copy(layer.bias.begin(), layer.bias.end(), static_cast<float*>(bias.get_data_handle()));
-    const dnnl::memory to(how.dst_desc(), engine_);
-    steps_.push_back({dnnl::inner_product_forward(how),
+    const dnnl::memory to(description.dst_desc(), engine_);
+    steps_.push_back({dnnl::inner_product_forward(description),
                       {{DNNL_ARG_SRC, from},
                        {DNNL_ARG_WEIGHTS, weights},
                        {DNNL_ARG_BIAS, bias},
@@ -172,21 +172,21 @@ class OneDnnInt8Evaluation : public Evaluation {
     after.append_binary(dnnl::algorithm::binary_add, bias_like);
     if (!last) after.append_eltwise(1.0f, dnnl::algorithm::eltwise_elu, 1.0f, 0.0f);
     attributes.set_post_ops(after);
-    const dnnl::inner_product_forward::primitive_desc how(
+    const dnnl::inner_product_forward::primitive_desc description(
         {dnnl::prop_kind::forward_inference, from.get_desc(), Descriptor(shape, kBytes, Tag::any),
          row(layer.outputs, kFloat)},
         attributes, engine_);
     Int8Layer int8 = quantized(layer);
     const dnnl::memory ours({shape, kBytes, Tag::io}, engine_, int8.weights.data());
-    const dnnl::memory weights(how.weights_desc(), engine_), bias(bias_like, engine_);
+    const dnnl::memory weights(description.weights_desc(), engine_), bias(bias_like, engine_);
     dnnl::reorder(ours, weights).execute(stream_, {{DNNL_ARG_FROM, ours}, {DNNL_ARG_TO, weights}});
     stream_.wait();
     std::copy(layer.bias.begin(), layer.bias.end(), floats(bias));
     const dnnl::memory scales({{layer.outputs}, kFloat, Tag::x}, engine_);
-    steps_.push_back({dnnl::inner_product_forward(how),
+    steps_.push_back({dnnl::inner_product_forward(description),
                       {{DNNL_ARG_SRC, from},
                        {DNNL_ARG_WEIGHTS, weights},
-                       {DNNL_ARG_DST, dnnl::memory(how.dst_desc(), engine_)},
+                       {DNNL_ARG_DST, dnnl::memory(description.dst_desc(), engine_)},
                        {DNNL_ARG_ATTR_OUTPUT_SCALES, scales},
                        {DNNL_ARG_ATTR_MULTIPLE_POST_OP(0) | DNNL_ARG_SRC_1, bias}},
                       std::move(int8.scale),

@@ -65,9 +65,9 @@ void blended_dense(const BlendedLayer& layer, std::span<const float> shares,
 }
 
 std::array<float, 4> phase_shares(float phase) noexcept {
-  const float place = 4 * phase;
-  const int at = static_cast<int>(place);
-  const float t = place - static_cast<float>(at), t2 = t * t, t3 = t2 * t;
+  const float position = 4 * phase;
+  const int at = static_cast<int>(position);
+  const float t = position - static_cast<float>(at), t2 = t * t, t3 = t2 * t;
   const float along[4] = {-0.5f * t3 + t2 - 0.5f * t, 1.5f * t3 - 2.5f * t2 + 1,
                           -1.5f * t3 + 2 * t2 + 0.5f * t, 0.5f * t3 - 0.5f * t2};
   std::array<float, 4> shares{};
@@ -120,8 +120,8 @@ PhaseTable::PhaseTable(const PhaseNetwork& network)
 }
 
 void PhaseTable::run(std::span<const float> x, float phase, std::span<float> y) noexcept {
-  const int place = std::clamp(static_cast<int>(phase * kPhases), 0, kPhases - 1);
-  const std::array<Layer, 3>& layers = layers_[static_cast<size_t>(place)];
+  const int index = std::clamp(static_cast<int>(phase * kPhases), 0, kPhases - 1);
+  const std::array<Layer, 3>& layers = layers_[static_cast<size_t>(index)];
   dense(x, layers[0].weights, layers[0].bias, hidden_[0]);
   elu(hidden_[0]);
   dense(hidden_[0], layers[1].weights, layers[1].bias, hidden_[1]);

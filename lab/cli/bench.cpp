@@ -24,18 +24,18 @@ struct Options {
 
 int run(const Options& options) {
   need(check_range("--steps", static_cast<double>(options.steps), 1, 1e9), kBadUsage);
-  bench::Options how;
-  how.model = need(find_model(options.model, kFloatModel));
-  how.walker_model = need(find_shipped(kWalkerModel));
-  how.steps = options.quick ? kQuickSteps : options.steps;
+  bench::Options bench_options;
+  bench_options.model = need(find_model(options.model, kFloatModel));
+  bench_options.walker_model = need(find_shipped(kWalkerModel));
+  bench_options.steps = options.quick ? kQuickSteps : options.steps;
   // Before the process is pinned to a core.
   std::optional<BuiltSystems> systems;
   if (!options.systems.empty()) {
-    systems = need(build_systems(options.systems, options.styles, how.model));
+    systems = need(build_systems(options.systems, options.styles, bench_options.model));
   }
   const bench::Measurements measured = need([&] {
     Progress progress("measuring");
-    return bench::measure_all(how, [&](double share) { progress.update(share); });
+    return bench::measure_all(bench_options, [&](double share) { progress.update(share); });
   }());
   std::vector<SystemTime> times;
   if (systems) times = systems->time();

@@ -22,7 +22,7 @@ constexpr const char* kFaint = "#8a8a8a";
 using enum HumanJoint;
 
 // A point in camera space: metres to the right, up, and towards the viewer.
-struct Seen {
+struct Projected {
   double right = 0, up = 0, near = 0;
 };
 
@@ -37,13 +37,13 @@ class Camera {
     pitch_sin_ = std::sin(options.pitch_deg * radians);
   }
 
-  Seen see(Vec3d place) const {
-    const double forward = dot(place, ahead_);
+  Projected see(Vec3d point) const {
+    const double forward = dot(point, ahead_);
     // To the body's right, the side that faces the viewer.
-    const double right = dot(place, cross(ahead_, {0, 1, 0}));
+    const double right = dot(point, cross(ahead_, {0, 1, 0}));
     const double near = forward * yaw_sin_ + right * yaw_cos_;
-    return {forward * yaw_cos_ - right * yaw_sin_, place.y * pitch_cos_ - near * pitch_sin_,
-            near * pitch_cos_ + place.y * pitch_sin_};
+    return {forward * yaw_cos_ - right * yaw_sin_, point.y * pitch_cos_ - near * pitch_sin_,
+            near * pitch_cos_ + point.y * pitch_sin_};
   }
 
  private:
@@ -63,7 +63,7 @@ Vec3d facing(const HumanPositions& body) {
 }
 
 // The direction of a row, horizontal and of unit length: see StripOptions.
-Vec3d way_of(const StripRow& row) {
+Vec3d direction_of(const StripRow& row) {
   constexpr double kGoes = 0.7;  // Metres.
   Vec3d faced;
   const HumanPositions* first = nullptr;
@@ -76,10 +76,11 @@ Vec3d way_of(const StripRow& row) {
   }
   if (!first) return {0, 0, 1};
   faced = normalized(faced, facing(*first));
-  Vec3d way = ((*last)[index(HumanJoint::hips)] - (*first)[index(HumanJoint::hips)]).as<double>();
-  way.y = 0;
-  const bool goes = length(way) > kGoes && dot(normalized(way), faced) > 0.5;
-  return goes ? normalized(way) : faced;
+  Vec3d direction =
+      ((*last)[index(HumanJoint::hips)] - (*first)[index(HumanJoint::hips)]).as<double>();
+  direction.y = 0;
+  const bool goes = length(direction) > kGoes && dot(normalized(direction), faced) > 0.5;
+  return goes ? normalized(direction) : faced;
 }
 
 // Breaks a label into lines between words, after joining characters in file names, or anywhere if a
@@ -109,26 +110,26 @@ std::vector<std::string> label_lines(const std::string& label) {
 
 // One figure, in metres of the drawing: right and up from its row's origin.
 struct Figure {
-  std::array<Seen, kHumanJoints> joints;
-  Seen head;
+  std::array<Projected, kHumanJoints> joints;
+  Projected head;
   double time = 0;
 };
 
 Figure make_figure(const HumanPositions& body, const Camera& camera, double hips_right) {
   // Subtracts only the hips' distance from the viewer, and their travel if figures stand apart.
   const Vec3d hips = body[index(HumanJoint::hips)].as<double>();
-  const Seen ground = camera.see({hips.x, 0, hips.z});
-  const auto place = [&](Vec3d p) {
-    const Seen seen = camera.see(p);
-    return Seen{seen.right - ground.right + hips_right, seen.up - ground.up,
-                seen.near - ground.near};
+  const Projected ground = camera.see({hips.x, 0, hips.z});
+  const auto project = [&](Vec3d p) {
+    const Projected projected = camera.see(p);
+    return Projected{projected.right - ground.right + hips_right, projected.up - ground.up,
+                     projected.near - ground.near};
   };
   Figure figure;
-  for (int j = 0; j < kHumanJoints; ++j) figure.joints[j] = place(body[j].as<double>());
+  for (int j = 0; j < kHumanJoints; ++j) figure.joints[j] = project(body[j].as<double>());
   const Vec3d head_joint = body[index(HumanJoint::head)].as<double>();
   const Vec3d neck_joint = body[index(HumanJoint::neck)].as<double>();
   const Vec3d up = normalized(head_joint - neck_joint, Vec3d{0, 1, 0});
-  figure.head = place(head_joint + up * kHeadRise);
+  figure.head = project(head_joint + up * kHeadRise);
   return figure;
 }
 
@@ -162,7 +163,7 @@ std::vector<Part> body_parts() {
 
 void draw_figure(Svg& svg, const Figure& figure, const std::string& colour, Point origin,
                  double scale) {
-  const auto pixel = [&](const Seen& s) {
+  const auto pixel = [&](const Projected& s) {
     return Point{origin.x + s.right * scale, origin.y - s.up * scale};
   };
   std::vector<Part> parts = body_parts();
@@ -202,7 +203,7 @@ double widest_reach(const std::vector<StripRow>& rows, const std::vector<Camera>
   for (size_t r = 0; r < rows.size(); ++r) {
     for (const HumanPositions& body : rows[r].frames) {
       if (!all_finite(body)) continue;
-      for (const Seen& s : make_figure(body, cameras[r], 0).joints) {
+      for (const Projected& s : make_figure(body, cameras[r], 0).joints) {
         reach = std::max(reach, std::abs(s.right));
       }
     }
@@ -225,13 +226,13 @@ Layout lay_out(const std::vector<StripRow>& rows, const std::vector<Camera>& cam
     for (size_t f = 0; f < row.frames.size(); ++f) {
       const HumanPositions& body = row.frames[f];
       if (!all_finite(body)) continue;
-      const double way = camera.see(body[index(HumanJoint::hips)].as<double>()).right;
-      if (figures.empty()) start = way;
-      const double at = options.travel ? way - start : apart * static_cast<double>(f);
+      const double travelled = camera.see(body[index(HumanJoint::hips)].as<double>()).right;
+      if (figures.empty()) start = travelled;
+      const double at = options.travel ? travelled - start : apart * static_cast<double>(f);
       figures.push_back(make_figure(body, camera, at));
       figures.back().time = options.seconds_between * static_cast<double>(f);
       layout.top = std::max(layout.top, figures.back().head.up + kHeadRadius);
-      for (const Seen& s : figures.back().joints) {
+      for (const Projected& s : figures.back().joints) {
         layout.left = first ? s.right : std::min(layout.left, s.right);
         layout.right = first ? s.right : std::max(layout.right, s.right);
         layout.bottom = std::min(layout.bottom, s.up);
@@ -286,7 +287,7 @@ std::string draw_strip(const std::vector<StripRow>& rows, const StripOptions& op
   std::vector<Camera> cameras;
   std::vector<std::vector<std::string>> labels;
   for (const StripRow& row : rows) {
-    cameras.emplace_back(way_of(row), options);
+    cameras.emplace_back(direction_of(row), options);
     labels.push_back(label_lines(row.label));
   }
   const Layout layout = lay_out(rows, cameras, options);

@@ -89,14 +89,14 @@ using Look = std::vector<Vec3>;
 Look look_of(const Take& take) {
   Look out(2 * kHumanJoints);
   const float share = 1 / static_cast<float>(take.frames());
-  const auto place = [&](int f, int j) {
+  const auto position = [&](int f, int j) {
     return j == 0 ? Vec3{0, take.body[f][0].y, 0} : take.body[f][j] - take.body[f][0];
   };
   for (int j = 0; j < kHumanJoints; ++j) {
-    for (int f = 0; f < take.frames(); ++f) out[j] += place(f, j) * share;
+    for (int f = 0; f < take.frames(); ++f) out[j] += position(f, j) * share;
     Vec3 squares;
     for (int f = 0; f < take.frames(); ++f) {
-      const Vec3 off = place(f, j) - out[j];
+      const Vec3 off = position(f, j) - out[j];
       squares += Vec3{off.x * off.x, off.y * off.y, off.z * off.z} * share;
     }
     out[kHumanJoints + j] = {std::sqrt(squares.x), std::sqrt(squares.y), std::sqrt(squares.z)};

@@ -191,8 +191,8 @@ Result<Systems> make_comparisons(const EvaluateOptions& options, const TestSet& 
   return systems;
 }
 
-Result<SystemReport> judge_in_every_way(const System& system, const TestSet& test_set,
-                                        const StyleJudges* judges, const EvaluateOptions& options) {
+Result<SystemReport> judge_fully(const System& system, const TestSet& test_set,
+                                 const StyleJudges* judges, const EvaluateOptions& options) {
   Result<SystemReport> report = evaluate_system(system, test_set);
   if (!report) return report;
   report->disturbances = measure_disturbances(test_set.aligned, system);
@@ -394,7 +394,7 @@ Result<Report> evaluate(const EvaluateOptions& options) {
   }
   for (const std::unique_ptr<System>& system : systems) {
     Result<SystemReport> evaluated =
-        judge_in_every_way(*system, *test_set, judges ? &*judges : nullptr, options);
+        judge_fully(*system, *test_set, judges ? &*judges : nullptr, options);
     if (!evaluated) return evaluated.error();
     report.systems.push_back(*std::move(evaluated));
   }

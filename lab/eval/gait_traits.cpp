@@ -89,13 +89,13 @@ SideVector side_of(const Take& take) {
   const int count = static_cast<int>(all < stride ? all : std::floor(all / stride) * stride);
   const int end = first + count;
   HumanPositions middle{}, spread{};
-  const auto place = [&](int f, int j) { return take.body[f][j] - take.body[f][0]; };
+  const auto position = [&](int f, int j) { return take.body[f][j] - take.body[f][0]; };
   for (int j = 0; j < kHumanJoints; ++j) {
     for (int f = first; f < end; ++f) {
-      middle[j] += place(f, j) * (1.0f / static_cast<float>(count));
+      middle[j] += position(f, j) * (1.0f / static_cast<float>(count));
     }
     for (int f = first; f < end; ++f) {
-      const Vec3 off = place(f, j) - middle[j];
+      const Vec3 off = position(f, j) - middle[j];
       spread[j] +=
           Vec3{off.x * off.x, off.y * off.y, off.z * off.z} * (1.0f / static_cast<float>(count));
     }

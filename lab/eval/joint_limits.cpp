@@ -45,7 +45,7 @@ class Inspection {
   }
 
   BeyondLimit worst() {
-    const Vec3 torso = seen_in(hips_, chest_.y), head_up = seen_in(chest_, way(neck, head));
+    const Vec3 torso = seen_in(hips_, chest_.y), head_up = seen_in(chest_, direction(neck, head));
     note(spine, swing_beyond(both_sides(torso), kTorsoSwings));
     note(head, swing_beyond(both_sides(head_up), kHeadSwings));
     for (size_t side = 0; side < 2; ++side) {
@@ -70,12 +70,12 @@ class Inspection {
 
  private:
   Vec3 at(HumanJoint joint) const { return body_[index(joint)]; }
-  Vec3 way(HumanJoint from, HumanJoint to) const { return normalized(at(to) - at(from)); }
+  Vec3 direction(HumanJoint from, HumanJoint to) const { return normalized(at(to) - at(from)); }
   // The torso is symmetric.
   static Vec3 both_sides(Vec3 v) { return {std::abs(v.x), v.y, v.z}; }
   // From one joint to another, in a frame with x outward on that side.
   Vec3 limb(HumanJoint from, HumanJoint to, const Frame& frame, size_t side) const {
-    const Vec3 v = seen_in(frame, way(from, to));
+    const Vec3 v = seen_in(frame, direction(from, to));
     return {side == 0 ? v.x : -v.x, v.y, v.z};
   }
   void note(HumanJoint joint, float beyond) {

@@ -83,15 +83,15 @@ double skating_ratio(const Take& take) {
   if (frames < 2) return 0;
   std::vector<bool> slides(frames, false);
   for (const HumanJoint toe : kToes) {
-    std::vector<Slide> way(frames, Slide{1, 1, 0});
+    std::vector<Slide> motion(frames, Slide{1, 1, 0});
     for (int f = 1; f < frames; ++f) {
-      way[f] = slide_of(world[f - 1], world[f], toe, kSkatingRate);
+      motion[f] = slide_of(world[f - 1], world[f], toe, kSkatingRate);
     }
     for (int f = 1; f < frames; ++f) {
       const int a = std::max(f - 2, 1), b = std::min(f + 2, frames - 1);
       float mean = 0;
-      for (int i = a; i <= b; ++i) mean += way[i].speed / static_cast<float>(b - a + 1);
-      if (way[f].height < kLowToe && way[f].before < kLowToe && way[f].speed > kSlide &&
+      for (int i = a; i <= b; ++i) mean += motion[i].speed / static_cast<float>(b - a + 1);
+      if (motion[f].height < kLowToe && motion[f].before < kLowToe && motion[f].speed > kSlide &&
           mean > kSlide) {
         slides[f] = true;
       }
@@ -119,11 +119,11 @@ double weighted_skating(const Take& take) {
 double cadence(const Take& take) {
   const int frames = take.frames();
   if (frames < 2) return kNotMeasured;
-  double way = 0;
+  double path = 0;
   for (int f = 1; f < frames; ++f) {
-    way += length(take.root[f].position - take.root[f - 1].position);
+    path += length(take.root[f].position - take.root[f - 1].position);
   }
-  if (way * kTakeRate / (frames - 1) < kTravelSpeed) return kNotMeasured;
+  if (path * kTakeRate / (frames - 1) < kTravelSpeed) return kNotMeasured;
 
   std::vector<float> apart(frames);  // Distance of the left foot in front of the right one.
   for (int f = 0; f < frames; ++f) {
@@ -199,21 +199,21 @@ double bone_length_error(const Clip& clip, const Clip& from,
                          const std::vector<double>& source_frames, int hips) {
   const size_t joints = clip.joints();
   std::vector<Quat> turns(joints), source_turns(joints);
-  std::vector<Vec3> places(joints), source_places(joints);
+  std::vector<Vec3> positions(joints), source_positions(joints);
   std::vector<bool> is_bone(joints);
   for (size_t j = 0; j < joints; ++j) is_bone[j] = clip.skeleton.joints[j].parent >= 0;
   for (int j = hips; j >= 0; j = clip.skeleton.joints[j].parent) is_bone[j] = false;
   double worst = 0;
   for (int f = 0; f < clip.frames; ++f) {
-    world_pose(clip.skeleton, clip.pose(f), {turns, places});
-    sample(from, source_frames[f], {source_turns, source_places});
-    world_pose(clip.skeleton, ConstPose{source_turns, source_places},
-               {source_turns, source_places});
+    world_pose(clip.skeleton, clip.pose(f), {turns, positions});
+    sample(from, source_frames[f], {source_turns, source_positions});
+    world_pose(clip.skeleton, ConstPose{source_turns, source_positions},
+               {source_turns, source_positions});
     for (size_t j = 0; j < joints; ++j) {
       if (!is_bone[j]) continue;
       const int parent = clip.skeleton.joints[j].parent;
-      const double now = length(places[j] - places[parent]);
-      const double before = length(source_places[j] - source_places[parent]);
+      const double now = length(positions[j] - positions[parent]);
+      const double before = length(source_positions[j] - source_positions[parent]);
       worst = std::max(worst, std::abs(now - before));
     }
   }

@@ -142,12 +142,12 @@ Result<RecognitionSummary> recognise(const std::shared_ptr<const Model>& remover
   for (const Take* take : takes) {
     Result<std::vector<StyleShare>> shares = recognise_styles(remover, *take);
     if (!shares) return shares.error();
-    const auto place = std::find_if(shares->begin(), shares->end(), [&](const StyleShare& share) {
+    const auto wanted = std::find_if(shares->begin(), shares->end(), [&](const StyleShare& share) {
       return take->row.neutral
                  ? share.style < 0
                  : share.style >= 0 && remover->styles()[share.style].name == take->row.style;
     });
-    const auto rank = place - shares->begin();
+    const auto rank = wanted - shares->begin();
     if (take->row.neutral) {
       neutral.push_back(rank < 1);
     } else {

@@ -29,10 +29,10 @@ double quantile(std::vector<double> values, double at) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty()) return kNotMeasured;
   std::sort(values.begin(), values.end());
-  const double place = std::clamp(at, 0.0, 1.0) * static_cast<double>(values.size() - 1);
-  const size_t below = static_cast<size_t>(place);
+  const double position = std::clamp(at, 0.0, 1.0) * static_cast<double>(values.size() - 1);
+  const size_t below = static_cast<size_t>(position);
   const size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+  return values[below] + (position - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
 double finite_mean(const std::vector<double>& values) {

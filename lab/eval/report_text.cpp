@@ -18,7 +18,7 @@ constexpr int kCount = -1, kPlainCount = -2;
 
 // A column of numbers, each found by a JSON pointer in its row.
 struct Column {
-  std::string label, place;
+  std::string label, pointer;
   int digits;
 };
 struct Group {
@@ -28,11 +28,11 @@ struct Group {
 using NamedRows = std::vector<std::pair<std::string, Json>>;
 
 std::string cell(const Json& row, const Column& column) {
-  const Json::json_pointer place(column.place);
-  if (!row.contains(place) || !row[place].is_number()) return kDash;
-  if (column.digits == kCount) return count_text(row[place]);
-  if (column.digits == kPlainCount) return row[place] == 0 ? kDash : number_text(row[place], 0);
-  return number_text(row[place], column.digits);
+  const Json::json_pointer pointer(column.pointer);
+  if (!row.contains(pointer) || !row[pointer].is_number()) return kDash;
+  if (column.digits == kCount) return count_text(row[pointer]);
+  if (column.digits == kPlainCount) return row[pointer] == 0 ? kDash : number_text(row[pointer], 0);
+  return number_text(row[pointer], column.digits);
 }
 
 std::string table(const std::string& names, const std::vector<Group>& groups,
@@ -83,7 +83,7 @@ std::string side_by_side(const std::string& names, const std::vector<Source>& so
   for (size_t s = 0; s < sources.size(); ++s) {
     groups.push_back({sources[s].label, sources[s].columns});
     for (Column& column : groups.back().columns) {
-      column.place.insert(0, "/" + std::to_string(s));
+      column.pointer.insert(0, "/" + std::to_string(s));
     }
   }
   NamedRows rows;
@@ -98,12 +98,12 @@ std::string side_by_side(const std::string& names, const std::vector<Source>& so
   return table(names, groups, rows);
 }
 
-// The value of each system at `place`, skipping systems where `needed` is empty.
-NamedRows of_systems(const Json& report, const std::string& place, const std::string& needed) {
+// The value of each system at `pointer`, skipping systems where `needed` is empty.
+NamedRows of_systems(const Json& report, const std::string& pointer, const std::string& needed) {
   NamedRows rows;
   for (const auto& [name, system] : report["systems"].items()) {
     if (system[Json::json_pointer(needed)].empty()) continue;
-    rows.emplace_back(name, system[Json::json_pointer(place)]);
+    rows.emplace_back(name, system[Json::json_pointer(pointer)]);
   }
   return rows;
 }
@@ -164,7 +164,7 @@ std::string strengths(const Json& report, const std::string& measure) {
       const auto is_same = [&](const Column& column) { return column.label == strength; };
       if (std::ranges::any_of(group.columns, is_same)) continue;
       group.columns.push_back(measured(strength, measure));
-      group.columns.back().place.insert(0, "/" + strength);
+      group.columns.back().pointer.insert(0, "/" + strength);
     }
   }
   return table("", {group}, rows);

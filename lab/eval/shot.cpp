@@ -37,8 +37,8 @@ bool rests(const std::vector<Body>& world, int f, HumanJoint joint) {
 
 // Horizontal speed since the previous frame, m/s.
 float speed_of(const std::vector<Body>& world, int f, HumanJoint joint) {
-  const Vec3 way = world[f][index(joint)] - world[f - 1][index(joint)];
-  return std::hypot(way.x, way.z) * static_cast<float>(kTakeRate);
+  const Vec3 step = world[f][index(joint)] - world[f - 1][index(joint)];
+  return std::hypot(step.x, step.z) * static_cast<float>(kTakeRate);
 }
 
 float beyond_feet(const Body& body) {
@@ -46,14 +46,14 @@ float beyond_feet(const Body& body) {
   for (const HumanJoint joint : {kAnkles[0], kAnkles[1], kToes[0], kToes[1]}) {
     feet += body[index(joint)] * 0.25f;
   }
-  const Vec3 way = body[index(hips)] - feet;
-  return std::hypot(way.x, way.z);
+  const Vec3 offset = body[index(hips)] - feet;
+  return std::hypot(offset.x, offset.z);
 }
 
 float turn_deg(const Body& from, const Body& to, int side) {
   const auto heading = [&](const Body& body) {
-    const Vec3 way = body[index(kToes[side])] - body[index(kAnkles[side])];
-    return std::atan2(way.x, way.z);
+    const Vec3 foot = body[index(kToes[side])] - body[index(kAnkles[side])];
+    return std::atan2(foot.x, foot.z);
   };
   const double turn = static_cast<double>(heading(to)) - heading(from);
   return static_cast<float>(std::abs(std::remainder(turn, 2 * std::numbers::pi)) * 180 /

@@ -68,7 +68,7 @@ Tensor hinge_beyond(const Tensor& upper, const Tensor& lower, float ahead,
 // Excess over the ranges of all ten joints, degrees. [rows][21][3] -> [rows][10]
 Tensor beyond_ranges(const Tensor& bodies) {
   const auto at = [&](HumanJoint joint) { return bodies.select(1, index(joint)); };
-  const auto way = [&](HumanJoint from, HumanJoint to) { return unit(at(to) - at(from)); };
+  const auto direction = [&](HumanJoint from, HumanJoint to) { return unit(at(to) - at(from)); };
   const auto outward = [](const Tensor& v, float side) {
     return v * torch::tensor({side, 1.0f, 1.0f});
   };
@@ -82,18 +82,18 @@ Tensor beyond_ranges(const Tensor& bodies) {
 
   std::vector<Tensor> all = {
       swing_beyond(either_side(on_hips.seen(on_chest.y)), 1, kTorsoRange),
-      swing_beyond(either_side(on_chest.seen(way(neck, head))), 1, kHeadRange)};
+      swing_beyond(either_side(on_chest.seen(direction(neck, head))), 1, kHeadRange)};
   const auto add_arm = [&](float side, HumanJoint shoulder, HumanJoint elbow, HumanJoint hand) {
-    const Tensor upper = outward(on_chest.seen(way(shoulder, elbow)), side);
-    const Tensor lower = outward(on_chest.seen(way(elbow, hand)), side);
+    const Tensor upper = outward(on_chest.seen(direction(shoulder, elbow)), side);
+    const Tensor lower = outward(on_chest.seen(direction(elbow, hand)), side);
     const Tensor overhead = kOverheadSlope * (kOverhead - upper.select(1, 1));
     all.push_back(torch::minimum(swing_beyond(upper, -1, kShoulderRange), overhead));
     // The twist of a raised arm is not observable.
     all.push_back(torch::minimum(hinge_beyond(upper, lower, 1, kElbowRange), overhead));
   };
   const auto add_leg = [&](float side, HumanJoint hip, HumanJoint knee, HumanJoint foot) {
-    const Tensor upper = outward(on_hips.seen(way(hip, knee)), side);
-    const Tensor lower = outward(on_hips.seen(way(knee, foot)), side);
+    const Tensor upper = outward(on_hips.seen(direction(hip, knee)), side);
+    const Tensor lower = outward(on_hips.seen(direction(knee, foot)), side);
     all.push_back(swing_beyond(upper, -1, kHipRange));
     all.push_back(hinge_beyond(upper, lower, -1, kKneeRange));
   };

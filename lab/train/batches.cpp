@@ -105,11 +105,11 @@ Batch BatchMaker::plain(const std::vector<int>& samples) const {
 Batch BatchMaker::disturbed(const std::vector<int>& samples, Random& random) const {
   std::vector<Row> rows;
   std::vector<Disturbed> draws;
-  Disturbance how = kOtherPeople;
-  how.tempo = settings_.disturbance.tempo;
+  Disturbance disturbance = kOtherPeople;
+  disturbance.tempo = settings_.disturbance.tempo;
   for (const int i : samples) {
     rows.push_back({i, false, static_cast<int>(draws.size())});
-    draws.push_back(draw_disturbance(how, set_.units(), random));
+    draws.push_back(draw_disturbance(disturbance, set_.units(), random));
   }
   return fill(rows, draws, &random);
 }

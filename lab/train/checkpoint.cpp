@@ -24,8 +24,8 @@ torch::Tensor as_tensor(const Fingerprint& training) {
 // may change the settings; so the first difference in this order is the cause.
 std::string difference(const torch::Tensor& saved, const torch::Tensor& now) {
   constexpr std::pair<int, const char*> kParts[] = {{2, "settings"}, {1, "styles"}, {0, "data"}};
-  for (const auto& [place, name] : kParts) {
-    if (saved[place].item<int64_t>() != now[place].item<int64_t>()) return name;
+  for (const auto& [index, name] : kParts) {
+    if (saved[index].item<int64_t>() != now[index].item<int64_t>()) return name;
   }
   return "";
 }

@@ -48,7 +48,7 @@ std::map<Content, Takes> contents_of(const std::vector<ManifestRow>& rows) {
   return contents;
 }
 
-std::string place_of(const Takes& takes) {
+std::string location_of(const Takes& takes) {
   return (takes.manifest.empty() ? "" : takes.manifest + ": ") +
          (takes.person.empty() ? "" : "performer '" + takes.person + "': ");
 }
@@ -64,12 +64,12 @@ std::vector<std::string> list_unpaired(const std::vector<ManifestRow>& rows) {
     const auto& [content, takes] = *at;
     const bool is_first = at == contents.begin() || std::prev(at)->first.first != content.first;
     if (is_first && !learns[content.first]) {
-      lines.push_back(place_of(takes) +
+      lines.push_back(location_of(takes) +
                       (takes.person.empty() ? "the manifest is" : "all takes are") +
                       " left out: no content of " + (takes.person.empty() ? "it" : "theirs") +
                       " has both a neutral and a styled take");
     }
-    const std::string where = place_of(takes) + "content '" + content.second + "' ";
+    const std::string where = location_of(takes) + "content '" + content.second + "' ";
     const std::string what = where + "is left out: ";
     if (takes.borrows) {
       lines.push_back(where + "has no neutral take: styled takes are compared with the neutral " +
@@ -151,7 +151,7 @@ std::vector<std::string> list_too_short(const std::vector<Take>& takes, const Sa
     const auto& [number, content, style] = cell;
     char text[32];
     std::snprintf(text, sizeof text, "%.1f", seconds);
-    lines.push_back(place_of(contents.at({number, content})) + "style '" + style +
+    lines.push_back(location_of(contents.at({number, content})) + "style '" + style +
                     "' is left out in content '" + content +
                     "': its takes or the neutral ones are too short (its longest has " + text +
                     " s)");

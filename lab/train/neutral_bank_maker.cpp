@@ -46,12 +46,12 @@ Take mirror_take(Take take) {
   return take;
 }
 
-struct Place {
+struct Moment {
   int take, frame;
 };
 
-std::vector<Place> draw_places(const std::vector<Take>& takes, const std::vector<int>& people,
-                               Random& random) {
+std::vector<Moment> draw_moments(const std::vector<Take>& takes, const std::vector<int>& people,
+                                 Random& random) {
   std::map<int, double> frames, all;
   for (size_t t = 0; t < takes.size(); ++t) frames[people[t]] += takes[t].frames();
   const auto weight = [&](size_t t) {
@@ -65,14 +65,15 @@ std::vector<Place> draw_places(const std::vector<Take>& takes, const std::vector
   for (size_t t = 0; t < takes.size(); ++t) {
     ends.push_back(end += weight(t) * takes[t].frames() / all[takes[t].row.set]);
   }
-  std::vector<Place> places;
+  std::vector<Moment> moments;
   for (int64_t i = 0; i < kMoments; ++i) {
     const auto at =
         std::upper_bound(ends.begin(), ends.end() - 1, static_cast<double>(random.uniform()) * end);
     const auto t = static_cast<int>(at - ends.begin());
-    places.push_back({t, static_cast<int>(random.below(static_cast<uint32_t>(takes[t].frames())))});
+    moments.push_back(
+        {t, static_cast<int>(random.below(static_cast<uint32_t>(takes[t].frames())))});
   }
-  return places;
+  return moments;
 }
 
 }  // namespace
@@ -89,18 +90,18 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
         numbers.try_emplace(person_of(take), static_cast<int>(numbers.size())).first->second);
   }
   Random random(seed);
-  const std::vector<Place> places = draw_places(takes, people, random);
+  const std::vector<Moment> chosen = draw_moments(takes, people, random);
   std::vector<Take> exchanged;
   for (const Take& take : takes) exchanged.push_back(mirror_take(take));
   const int64_t count = 2 * kMoments;
   torch::Tensor moments = torch::empty({count, kMomentFeatures});
   std::vector<int> person(count);
   parallel_for(static_cast<int>(count), [&](int i) {
-    const Place& place = places[i % kMoments];
-    const Take& take = (i < kMoments ? takes : exchanged)[place.take];
-    write_moment(take, static_cast<float>(place.frame), 1,
+    const Moment& at = chosen[i % kMoments];
+    const Take& take = (i < kMoments ? takes : exchanged)[at.take];
+    write_moment(take, static_cast<float>(at.frame), 1,
                  {moments.data_ptr<float>() + int64_t{i} * kMomentFeatures, kMomentFeatures});
-    person[i] = people[place.take];
+    person[i] = people[at.take];
   });
   // Principal components (Pearson 1901).
   const torch::Tensor mean = moments.mean(0), centred = moments - mean;
@@ -109,7 +110,7 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
   const torch::Tensor directions = std::get<1>(torch::linalg_eigh(covariance))
                                        .slice(1, kMomentFeatures - NeutralBank::kDirections)
                                        .to(torch::kFloat32);
-  const torch::Tensor moment_places = centred.matmul(directions);
+  const torch::Tensor projections = centred.matmul(directions);
 
   const torch::Tensor medoids = torch::tensor([&] {
     std::vector<int64_t> drawn;
@@ -120,10 +121,10 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
   }());
   // Moments are drawn at random; that of a person may fit best a few frames earlier or later.
   const auto refine = [&](int64_t moment, const torch::Tensor& wanted) {
-    const Place& place = places[moment % kMoments];
-    const Take& take = (moment < kMoments ? takes : exchanged)[place.take];
-    const int first = std::max(0, place.frame - kPhaseFrames);
-    const int last = std::min(take.frames() - 1, place.frame + kPhaseFrames);
+    const Moment& at = chosen[moment % kMoments];
+    const Take& take = (moment < kMoments ? takes : exchanged)[at.take];
+    const int first = std::max(0, at.frame - kPhaseFrames);
+    const int last = std::min(take.frames() - 1, at.frame + kPhaseFrames);
     torch::Tensor near = torch::empty({last - first + 1, kMomentFeatures});
     for (int f = first; f <= last; ++f) {
       write_moment(
@@ -140,10 +141,8 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
   std::vector<float> members;
   constexpr int64_t kBlock = 250;
   for (int64_t begin = 0; begin < kPrototypes; begin += kBlock) {
-    const torch::Tensor from =
-        moment_places.index_select(0, medoids.slice(0, begin, begin + kBlock));
-    const torch::Tensor near =
-        std::get<1>(torch::cdist(from, moment_places).topk(kAround, 1, false));
+    const torch::Tensor from = projections.index_select(0, medoids.slice(0, begin, begin + kBlock));
+    const torch::Tensor near = std::get<1>(torch::cdist(from, projections).topk(kAround, 1, false));
     for (int64_t r = 0; r < near.size(0); ++r) {
       std::vector<int64_t> chosen;
       std::set<int> met;
@@ -172,7 +171,7 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
   std::vector<float> distances;
   const int64_t step = count / 1000;
   for (int64_t i = 0; i < count; i += step) {
-    torch::Tensor far = (table.slice(1, 0, NeutralBank::kDirections) - moment_places[i]).norm(2, 1);
+    torch::Tensor far = (table.slice(1, 0, NeutralBank::kDirections) - projections[i]).norm(2, 1);
     float min = 1e9f;
     for (int64_t p = 0; p < prototypes; ++p) {
       const auto of = members.begin() + p * NeutralBank::kPeople;

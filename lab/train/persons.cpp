@@ -61,7 +61,7 @@ Common common_windows(const std::shared_ptr<const Model>& model, const std::vect
                       int count, Random& random) {
   const StyleNetworks networks(model);
   const int numbers = pose_feature_count(model->layout());
-  std::vector<float> window(size_t(kWindowPoses) * numbers), seen(model->activation_count());
+  std::vector<float> window(size_t(kWindowPoses) * numbers), activations(model->activation_count());
   Common out;
   std::vector<torch::Tensor> rows;
   for (int i = 0; i < count; ++i) {
@@ -69,8 +69,8 @@ Common common_windows(const std::shared_ptr<const Model>& model, const std::vect
     const auto frame =
         static_cast<float>(8 + random.below(static_cast<uint32_t>(take.frames() - 8)));
     take_window(take, frame, numbers, window);
-    networks.activations(window, seen);
-    rows.push_back(torch::tensor(seen).to(torch::kFloat64));
+    networks.activations(window, activations);
+    rows.push_back(torch::tensor(activations).to(torch::kFloat64));
     out.bodies.push_back(body_at(take, frame));
     out.roots.push_back(root_at(take, frame));
   }
@@ -79,15 +79,15 @@ Common common_windows(const std::shared_ptr<const Model>& model, const std::vect
 }
 
 // The bodies of common windows as a person would hold them, and the person's tempo.
-struct Seen {
+struct PersonBodies {
   std::vector<HumanPositions> bodies;
   double log_rate = 0;  // Mean.
 };
-Seen see_person(const Model& model, const Common& common, const torch::Tensor& weights,
-                const torch::Tensor& bias) {
+PersonBodies bodies_of_person(const Model& model, const Common& common,
+                              const torch::Tensor& weights, const torch::Tensor& bias) {
   const torch::Tensor answers =
       (common.activations.matmul(weights) + bias).to(torch::kFloat32).contiguous();
-  Seen out;
+  PersonBodies out;
   for (size_t w = 0; w < common.bodies.size(); ++w) {
     const float* answer = answers.data_ptr<float>() + w * kLearntOutputs;
     std::vector<float> scaled(StyleDelta::kSize);
@@ -102,75 +102,78 @@ Seen see_person(const Model& model, const Common& common, const torch::Tensor& w
 // What can be seen of a person on the common walks; each is the name of an axis.
 struct VisibleTrait {
   const char* name;
-  double (*measure)(const Seen&);
+  double (*measure)(const PersonBodies&);
 };
-double mean_over(const Seen& seen, const std::function<double(const HumanPositions&)>& of) {
+double mean_over(const PersonBodies& person,
+                 const std::function<double(const HumanPositions&)>& of) {
   double sum = 0;
-  for (const HumanPositions& body : seen.bodies) sum += of(body);
-  return sum / static_cast<double>(seen.bodies.size());
+  for (const HumanPositions& body : person.bodies) sum += of(body);
+  return sum / static_cast<double>(person.bodies.size());
 }
-double deviation_over(const Seen& seen, const std::function<double(const HumanPositions&)>& of) {
-  const double mean = mean_over(seen, of);
+double deviation_over(const PersonBodies& person,
+                      const std::function<double(const HumanPositions&)>& of) {
+  const double mean = mean_over(person, of);
   return std::sqrt(mean_over(
-      seen, [&](const HumanPositions& body) { return (of(body) - mean) * (of(body) - mean); }));
+      person, [&](const HumanPositions& body) { return (of(body) - mean) * (of(body) - mean); }));
 }
 double ahead(const HumanPositions& body, HumanJoint joint) { return double{body[index(joint)].z}; }
 double height(const HumanPositions& body, HumanJoint joint) { return double{body[index(joint)].y}; }
 double left(const HumanPositions& body, HumanJoint joint) { return double{body[index(joint)].x}; }
 constexpr std::array<VisibleTrait, 8> kVisible = {{
     {"stride",
-     [](const Seen& seen) {
-       return deviation_over(seen, [](const HumanPositions& body) {
+     [](const PersonBodies& person) {
+       return deviation_over(person, [](const HumanPositions& body) {
          return ahead(body, left_foot) - ahead(body, right_foot);
        });
      }},
     {"arm swing",
-     [](const Seen& seen) {
-       return deviation_over(seen, [](const HumanPositions& body) {
+     [](const PersonBodies& person) {
+       return deviation_over(person, [](const HumanPositions& body) {
          return ahead(body, left_hand) - ahead(body, right_hand);
        });
      }},
     {"stance",
-     [](const Seen& seen) {
-       return mean_over(seen, [](const HumanPositions& body) {
+     [](const PersonBodies& person) {
+       return mean_over(person, [](const HumanPositions& body) {
          return left(body, left_foot) - left(body, right_foot);
        });
      }},
     {"carriage",
-     [](const Seen& seen) {
-       return mean_over(
-           seen, [](const HumanPositions& body) { return ahead(body, head) - ahead(body, hips); });
+     [](const PersonBodies& person) {
+       return mean_over(person, [](const HumanPositions& body) {
+         return ahead(body, head) - ahead(body, hips);
+       });
      }},
     {"bounce",
-     [](const Seen& seen) {
-       return deviation_over(seen, [](const HumanPositions& body) { return height(body, hips); });
+     [](const PersonBodies& person) {
+       return deviation_over(person, [](const HumanPositions& body) { return height(body, hips); });
      }},
     {"side",
-     [](const Seen& seen) {
-       return mean_over(seen, [](const HumanPositions& body) {
+     [](const PersonBodies& person) {
+       return mean_over(person, [](const HumanPositions& body) {
          return height(body, left_hand) - height(body, right_hand);
        });
      }},
     {"elbows",
-     [](const Seen& seen) {
-       return mean_over(seen, [](const HumanPositions& body) {
+     [](const PersonBodies& person) {
+       return mean_over(person, [](const HumanPositions& body) {
          return height(body, left_hand) + height(body, right_hand);
        });
      }},
-    {"pace", [](const Seen& seen) { return seen.log_rate; }},
+    {"pace", [](const PersonBodies& person) { return person.log_rate; }},
 }};
 
 // A person as one row of numbers: all joints on all common windows and the tempo, so that squared
 // distances are mean squared centimetres of a joint.
-torch::Tensor row_of(const Seen& seen) {
-  const double unit = 100 / std::sqrt(double(kHumanJoints) * double(seen.bodies.size()));
+torch::Tensor row_of(const PersonBodies& person) {
+  const double unit = 100 / std::sqrt(double(kHumanJoints) * double(person.bodies.size()));
   std::vector<double> row;
-  for (const HumanPositions& body : seen.bodies) {
+  for (const HumanPositions& body : person.bodies) {
     for (const Vec3& joint : body) {
       for (const float at : {joint.x, joint.y, joint.z}) row.push_back(unit * double{at});
     }
   }
-  row.push_back(seen.log_rate / kTempoUnit);
+  row.push_back(person.log_rate / kTempoUnit);
   return torch::tensor(row, torch::kFloat64);
 }
 
@@ -259,11 +262,11 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
   const Common walks = common_windows(model, gaits, kCommonGait, random);
   const Common rest = common_windows(model, others, kCommonOther, random);
   // People who are far from all others acted, or were captured with another pose at rest.
-  std::vector<Seen> seen;
+  std::vector<PersonBodies> persons;
   std::vector<torch::Tensor> rows;
   for (const PersonHead& head : fitted) {
-    seen.push_back(see_person(*model, walks, head.weights, head.bias));
-    rows.push_back(row_of(seen.back()));
+    persons.push_back(bodies_of_person(*model, walks, head.weights, head.bias));
+    rows.push_back(row_of(persons.back()));
   }
   if (rows.empty()) return Error{"nobody among the takes walks for long enough"};
   const torch::Tensor middle = std::get<0>(torch::stack(rows).median(0));
@@ -272,7 +275,7 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
   for (size_t p = fitted.size(); p-- > 0;) {
     if (far[static_cast<int64_t>(p)].item<double>() <= kOutlier * usual) continue;
     fitted.erase(fitted.begin() + static_cast<int64_t>(p));
-    seen.erase(seen.begin() + static_cast<int64_t>(p));
+    persons.erase(persons.begin() + static_cast<int64_t>(p));
     rows.erase(rows.begin() + static_cast<int64_t>(p));
   }
   const auto count = static_cast<int64_t>(fitted.size());
@@ -296,7 +299,7 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
   std::vector<torch::Tensor> columns;
   for (const VisibleTrait& trait : kVisible) {
     std::vector<double> column;
-    for (const Seen& one : seen) column.push_back(trait.measure(one));
+    for (const PersonBodies& one : persons) column.push_back(trait.measure(one));
     const torch::Tensor values_of = torch::tensor(column, torch::kFloat64);
     columns.push_back((values_of - values_of.mean()) / (values_of.std() + 1e-12));
   }
@@ -332,13 +335,13 @@ Result<FittedPersons> fit_persons(const TensorFile& file, const NeutralBank& ban
   }
   importance[StyleDelta::kSize] = 0.3;
   importance.slice(0, StyleDelta::kSize + 1).fill_(0.02);
-  const torch::Tensor wide =  // [activations][axes * outputs]
+  const torch::Tensor stacked =  // [activations][axes * outputs]
       (axis_heads * importance).permute({1, 0, 2}).reshape({activations, axes * outputs});
-  const torch::Tensor answers = centred.matmul(wide) / std::sqrt(double(mixture.size(0)));
+  const torch::Tensor answers = centred.matmul(stacked) / std::sqrt(double(mixture.size(0)));
   const auto [au, as, avh] = torch::linalg_svd(answers, false);
   const int64_t units = settings.units;
   const torch::Tensor reduce =
-      wide.matmul(avh.slice(0, 0, units).t()) / as.slice(0, 0, units);  // [activations][units]
+      stacked.matmul(avh.slice(0, 0, units).t()) / as.slice(0, 0, units);  // [activations][units]
   const torch::Tensor reduced = centred.matmul(reduce);
   // Least squares of the answers on the units.
   const torch::Tensor exact =

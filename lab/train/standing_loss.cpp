@@ -25,13 +25,13 @@ torch::Tensor toes_of(const torch::Tensor& bodies) {
 
 // World velocities in the heading frame, m/s. [sequences][instants - 1][toes][3]
 torch::Tensor velocities(const torch::Tensor& toes, const torch::Tensor& root) {
-  const torch::Tensor place = halfway(toes), body = halfway(root).unsqueeze(2);
+  const torch::Tensor position = halfway(toes), body = halfway(root).unsqueeze(2);
   const torch::Tensor own = (toes.slice(1, 1) - toes.slice(1, 0, -1)) / kStep;
   const torch::Tensor turn = body.select(3, kTurnRate);
   const torch::Tensor left =
-      own.select(3, 0) + body.select(3, kVelocityLeft) + turn * place.select(3, 2);
+      own.select(3, 0) + body.select(3, kVelocityLeft) + turn * position.select(3, 2);
   const torch::Tensor forward =
-      own.select(3, 2) + body.select(3, kVelocityForward) - turn * place.select(3, 0);
+      own.select(3, 2) + body.select(3, kVelocityForward) - turn * position.select(3, 0);
   return torch::stack({left, own.select(3, 1), forward}, 3);
 }
 

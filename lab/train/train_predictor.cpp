@@ -27,7 +27,7 @@ constexpr float kMinError = 0.003f;  // Metres.
 constexpr float kScale = 0.08f, kTempo = 0.2f, kPosture = 0.02f;
 constexpr float kMaxJitter = 0.001f;  // Metres; each window has a random share of it.
 
-struct Place {
+struct Moment {
   int take;
   int frame;
 };
@@ -57,22 +57,22 @@ constexpr float kReversed = 0.15f;  // Share that is played backwards.
 struct Draw {
   bool mirrored = false, reversed = false;
   const Borrowed* borrowed = nullptr;
-  Place lender{};
+  Moment lender{};
   float scale = 1, tempo = 1, jitter = 0;
   std::array<float, 3 * kHumanJoints> posture{};
 };
 
-// Writes kPoses poses, oldest first; `place` is the window's last. out[kPoses][kFeatures]
-void write_poses(const std::vector<Take>& takes, const Place& place, const Draw& draw,
+// Writes kPoses poses, oldest first; `moment` is the window's last. out[kPoses][kFeatures]
+void write_poses(const std::vector<Take>& takes, const Moment& moment, const Draw& draw,
                  Random& random, float* out) {
   float spacing = static_cast<float>(kWindowSpacing * kTakeRate) * draw.tempo;
   if (draw.reversed) spacing = -spacing;
-  const auto instant = [&](const Place& from, int pose) {
+  const auto instant = [&](const Moment& from, int pose) {
     const auto age = static_cast<float>(pose - kWindowPoses + 1);
     return instant_at(takes[from.take], static_cast<float>(from.frame) + age * spacing);
   };
   const auto at = [&](int pose) {
-    Instant now = instant(place, pose);
+    Instant now = instant(moment, pose);
     if (!draw.borrowed) return now;
     const auto [first, last, base] = *draw.borrowed;
     const HumanPositions other = instant(draw.lender, pose).body;
@@ -111,17 +111,17 @@ class PredictorTraining {
     for (size_t t = 0; t < takes.size(); ++t) {
       const bool validates = t % 20 == 7;
       for (int f = kMargin; f + kMargin < takes[t].frames(); ++f) {
-        (validates ? held_ : places_).push_back({static_cast<int>(t), f});
+        (validates ? held_ : moments_).push_back({static_cast<int>(t), f});
       }
     }
   }
 
-  bool has_motion() const { return !places_.empty(); }
+  bool has_motion() const { return !moments_.empty(); }
 
   void run(int64_t steps, const std::function<void(double)>& progress,
            std::vector<LossPoint>& losses) {
     Random random(seed_ * 77 + 5);
-    const torch::Tensor first = draw_batch(places_, 4096, false, random);
+    const torch::Tensor first = draw_batch(moments_, 4096, false, random);
     measure(first);
     fit_linear(first);
     Random validation_random(9);
@@ -130,7 +130,7 @@ class PredictorTraining {
     const int64_t report = std::max<int64_t>(1, steps / 50);
     double sum = 0;
     for (int64_t step = 0; step < steps; ++step) {
-      const torch::Tensor loss = loss_of(draw_batch(places_, kBatch, true, random), &random);
+      const torch::Tensor loss = loss_of(draw_batch(moments_, kBatch, true, random), &random);
       sum += loss.item<double>();
       network_.learn(loss);
       if ((step + 1) % report != 0) continue;
@@ -176,12 +176,12 @@ class PredictorTraining {
   }
 
   // [rows][kPoses][kFeatures], oldest first.
-  torch::Tensor draw_batch(const std::vector<Place>& places, int rows, bool disturbed,
+  torch::Tensor draw_batch(const std::vector<Moment>& moments, int rows, bool disturbed,
                            Random& random) const {
     torch::Tensor out = torch::empty({rows, kPoses, kFeatures});
     float* row = out.data_ptr<float>();
     for (int r = 0; r < rows; ++r, row += kPoses * kFeatures) {
-      const Place& place = places[random.below(static_cast<uint32_t>(places.size()))];
+      const Moment& moment = moments[random.below(static_cast<uint32_t>(moments.size()))];
       Draw draw;
       draw.mirrored = random.uniform() < 0.5f;
       if (disturbed) {
@@ -191,10 +191,10 @@ class PredictorTraining {
         draw.reversed = random.uniform() < kReversed;
         const float borrows = random.uniform();
         if (borrows < 2 * kBorrows) draw.borrowed = borrows < kBorrows ? &kUpperBody : &kArms;
-        draw.lender = places[random.below(static_cast<uint32_t>(places.size()))];
+        draw.lender = moments[random.below(static_cast<uint32_t>(moments.size()))];
         for (float& offset : draw.posture) offset = kPosture * random.normal();
       }
-      write_poses(takes_, place, draw, random, row);
+      write_poses(takes_, moment, draw, random, row);
     }
     return out;
   }
@@ -299,7 +299,7 @@ class PredictorTraining {
   const std::vector<Take>& takes_;
   uint64_t seed_;
   NetworkTrainer network_;
-  std::vector<Place> places_, held_;
+  std::vector<Moment> moments_, held_;
   torch::Tensor mean_, scale_, unit_;  // [kFeatures]
   torch::Tensor linear_;               // [kWindowPoses - 1][kFeatures], newest change first
 };

@@ -22,13 +22,13 @@ panache_status panache_character_create(const panache_model* model,
     if (options) initial.gesture_rate = 0;
     const auto given = read_struct(options, initial, "panache_character_options");
     if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error());
-    LiveOptions how;
-    how.stylizer = read_stylizer_options(*given);
-    how.max_lag = given->max_lag;
-    how.max_lead = given->max_lead;
-    how.skip_cycles = given->skip_cycles != 0;
-    if (given->remover) how.remover = given->remover->model;
-    Result<LiveStylizer> live = LiveStylizer::create(model->model, skeleton->rig, how);
+    LiveOptions live_options;
+    live_options.stylizer = read_stylizer_options(*given);
+    live_options.max_lag = given->max_lag;
+    live_options.max_lead = given->max_lead;
+    live_options.skip_cycles = given->skip_cycles != 0;
+    if (given->remover) live_options.remover = given->remover->model;
+    Result<LiveStylizer> live = LiveStylizer::create(model->model, skeleton->rig, live_options);
     if (!live) return fail(PANACHE_BAD_ARGUMENT, live.error());
     *out =
         new panache_character{*std::move(live), std::vector<float>(model->model->styles().size())};

@@ -26,12 +26,12 @@ Result<StrengthTrack> read_track(const panache_strength_track& from, int32_t sty
   StrengthTrack out{from.style, {}};
   for (int32_t k = 0; k < from.key_count; ++k) {
     const panache_strength_key& key = from.keys[k];
-    const std::string place = "key " + std::to_string(k) + ": ";
+    const std::string where = "key " + std::to_string(k) + ": ";
     if (!std::isfinite(key.seconds) || !std::isfinite(key.strength)) {
-      return Error{place + "is not finite"};
+      return Error{where + "is not finite"};
     }
     if (k > 0 && !(key.seconds > from.keys[k - 1].seconds)) {
-      return Error{place + "is not later than the one before it"};
+      return Error{where + "is not later than the one before it"};
     }
     out.points.push_back({key.seconds, key.strength});
   }
@@ -124,8 +124,8 @@ panache_status panache_stylize_clip(const panache_model* model, const panache_cl
                                     panache_styled_clip** out) {
   start(out);
   return guarded([&] {
-    const auto how = read_options(options, *model->model);
-    if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error());
+    const auto restyle_options = read_options(options, *model->model);
+    if (!restyle_options) return fail(PANACHE_BAD_ARGUMENT, restyle_options.error());
     const auto strengths = read_tracks(tracks, track_count, panache_model_style_count(model));
     if (!strengths) return fail(PANACHE_BAD_ARGUMENT, strengths.error());
     const Result<Clip> input = read_clip(*clip, Rotations::as_given, "clip");
@@ -135,8 +135,9 @@ panache_status panache_stylize_clip(const panache_model* model, const panache_cl
     if (!removal) return fail(PANACHE_BAD_ARGUMENT, removal.error());
     const Rig& rig = clip->skeleton->rig;
     Result<Restyled> styled =
-        *removal ? restyle_without(*input, rig, **removal, model->model, *strengths, *how)
-                 : restyle(*input, rig, model->model, *strengths, *how);
+        *removal
+            ? restyle_without(*input, rig, **removal, model->model, *strengths, *restyle_options)
+            : restyle(*input, rig, model->model, *strengths, *restyle_options);
     if (!styled) return fail(PANACHE_BAD_ARGUMENT, styled.error());
     std::vector<uint8_t> contacts;
     for (const FootContacts& feet : styled->contacts) {

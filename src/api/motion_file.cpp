@@ -43,17 +43,17 @@ struct Edit {
 };
 
 Result<std::vector<double>> read_source_frames(const panache_clip_edit& from, const Clip& own,
-                                               const std::string& place) {
+                                               const std::string& where) {
   const int32_t count = from.frames.frame_count;
   if (!from.source_frames && count != own.frames) {
-    return Error{place + "has " + std::to_string(count) + " frames and no source_frames; the " +
+    return Error{where + "has " + std::to_string(count) + " frames and no source_frames; the " +
                  "motion has " + std::to_string(own.frames)};
   }
   std::vector<double> out;
   for (int32_t f = 0; f < count; ++f) {
     out.push_back(from.source_frames ? from.source_frames[f] : f);
     if (!(out.back() >= 0 && out.back() <= own.frames - 1)) {
-      return Error{place + "source frame " + std::to_string(f) + " is " +
+      return Error{where + "source frame " + std::to_string(f) + " is " +
                    std::to_string(out.back()) + "; expected 0 to " +
                    std::to_string(own.frames - 1)};
     }
@@ -62,20 +62,20 @@ Result<std::vector<double>> read_source_frames(const panache_clip_edit& from, co
 }
 
 Result<Edit> read_edit(const panache_motion_file& file, const panache_clip_edit& from,
-                       const std::string& place) {
+                       const std::string& where) {
   const Clip* own = find_clip(file, from.clip);
   if (!own) return no_clip(file, from.clip);
-  Result<Clip> read = read_clip(from.frames, own->skeleton, Rotations::as_given, place + "frames");
+  Result<Clip> read = read_clip(from.frames, own->skeleton, Rotations::as_given, where + "frames");
   if (!read) return read.error();
-  if (read->frames == 0) return Error{place + "has no frames"};
+  if (read->frames == 0) return Error{where + "has no frames"};
   Edit out{
       from.clip == -1 ? kNewClip : from.clip, *std::move(read), {}, from.name ? from.name : ""};
   if (out.clip == kNewClip) return out;
   if (out.frames.frame_time != own->frame_time) {
-    return Error{place + "has frames " + std::to_string(out.frames.frame_time) +
+    return Error{where + "has frames " + std::to_string(out.frames.frame_time) +
                  " seconds apart; those of the motion are " + std::to_string(own->frame_time)};
   }
-  Result<std::vector<double>> source = read_source_frames(from, *own, place);
+  Result<std::vector<double>> source = read_source_frames(from, *own, where);
   if (!source) return source.error();
   out.source_frames = *std::move(source);
   return out;
@@ -193,11 +193,11 @@ panache_status panache_motion_file_create_skeleton(const panache_motion_file* fi
     if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error());
     const Clip* found = find_clip(*file, clip);
     if (!found) return fail(PANACHE_BAD_ARGUMENT, no_clip(*file, clip));
-    const auto how = read_rig_options(*given, panache_motion_file_joint_count(file));
-    if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error());
-    auto body = clip == -1
-                    ? find_body(file->rest, find_clip(*file, first_body_motion(*file->file)), *how)
-                    : with_rig(*found, *how);
+    const auto rig_options = read_rig_options(*given, panache_motion_file_joint_count(file));
+    if (!rig_options) return fail(PANACHE_BAD_ARGUMENT, rig_options.error());
+    auto body = clip == -1 ? find_body(file->rest, find_clip(*file, first_body_motion(*file->file)),
+                                       *rig_options)
+                           : with_rig(*found, *rig_options);
     if (!body) return fail(PANACHE_BAD_SKELETON, located(file->path, body.error()));
     Skeleton joints = body->first.skeleton;
     *out = new panache_skeleton{std::move(body->second), std::move(joints), std::move(body->first)};

@@ -29,14 +29,14 @@ Result<void> read_frames(const float* rotations, const float* translations, int3
   for (size_t i = 0; i < static_cast<size_t>(count) * joints; ++i) {
     const Quat given = quat(rotations + 4 * i);
     const Vec3 v = vec(translations + 3 * i);
-    const auto place = [&] {
+    const auto where = [&] {
       return "pose " + std::to_string(i / joints) + ", joint " + std::to_string(i % joints) + ": ";
     };
     Quat unit = given;
     if (!make_unit(unit)) {
-      return Error{place() + "its rotation is not a unit quaternion (x, y, z, w)"};
+      return Error{where() + "its rotation is not a unit quaternion (x, y, z, w)"};
     }
-    if (!is_finite(v)) return Error{place() + "its translation is not finite"};
+    if (!is_finite(v)) return Error{where() + "its translation is not finite"};
     clip.rotations.push_back(kept == Rotations::unit ? unit : given);
     clip.translations.push_back(v);
   }

@@ -23,15 +23,15 @@ Result<Skeleton> read_skeleton(const panache_joint* joints, int32_t count) {
     joint.rest = quat(joints[j].rotation);
     joint.offset = vec(joints[j].translation);
     joint.can_rotate = joint.can_translate = true;
-    const std::string place = "joint " + std::to_string(j) + " '" + joint.name + "': ";
+    const std::string where = "joint " + std::to_string(j) + " '" + joint.name + "': ";
     if (joint.parent < -1 || joint.parent >= j) {
-      return Error{place + "parent is " + std::to_string(joint.parent) +
+      return Error{where + "parent is " + std::to_string(joint.parent) +
                    "; expected a joint before it, or -1"};
     }
     if (!make_unit(joint.rest)) {
-      return Error{place + "its rest rotation is not a unit quaternion (x, y, z, w)"};
+      return Error{where + "its rest rotation is not a unit quaternion (x, y, z, w)"};
     }
-    if (!is_finite(joint.offset)) return Error{place + "its rest translation is not finite"};
+    if (!is_finite(joint.offset)) return Error{where + "its rest translation is not finite"};
     out.joints.push_back(std::move(joint));
   }
   return out;
@@ -87,7 +87,7 @@ Result<RigOptions> read_rig_options(const panache_skeleton_options& options, int
   if (auto good = check_units(out.metres_per_unit, out.up_axis); !good) return good.error();
   Result<KnownJoints> known = read_map(options, joint_count);
   if (!known) return known.error();
-  out.joint_places = *std::move(known);
+  out.joint_indices = *std::move(known);
   return out;
 }
 
@@ -105,9 +105,9 @@ panache_status panache_skeleton_create(const panache_joint* joints, int32_t join
     if (!skeleton) return fail(PANACHE_BAD_SKELETON, skeleton.error());
     Result<Clip> clip = read_poses(*std::move(skeleton), *given);
     if (!clip) return fail(PANACHE_BAD_ARGUMENT, clip.error());
-    const Result<RigOptions> how = read_rig_options(*given, joint_count);
-    if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error());
-    Result<Rig> rig = Rig::create(*clip, *how);
+    const Result<RigOptions> rig_options = read_rig_options(*given, joint_count);
+    if (!rig_options) return fail(PANACHE_BAD_ARGUMENT, rig_options.error());
+    Result<Rig> rig = Rig::create(*clip, *rig_options);
     if (!rig) return fail(PANACHE_BAD_SKELETON, rig.error());
     Clip body = rest_clip(clip->skeleton);
     *out = new panache_skeleton{*std::move(rig), std::move(clip->skeleton), std::move(body)};

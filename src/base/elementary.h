@@ -81,10 +81,10 @@ inline float arc_tangent(float y, float x) {
 inline float exponential(float x) {
   using namespace elementary;
   // Outside this range a float is 0 or infinite.
-  const double wide = x < -110.0f ? -110.0 : x > 90.0f ? 90.0 : static_cast<double>(x);
-  if (std::isnan(wide)) return x;
-  const double shifted = wide * kLog2E + kRound;
-  const double r = wide - (shifted - kRound) * kLn2;
+  const double value = x < -110.0f ? -110.0 : x > 90.0f ? 90.0 : static_cast<double>(x);
+  if (std::isnan(value)) return x;
+  const double shifted = value * kLog2E + kRound;
+  const double r = value - (shifted - kRound) * kLn2;
   // Taylor series; for |r| <= ln(2) / 2 the error is below r^10 / 10! = 7e-12.
   constexpr double kInverse[] = {1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5,
                                  1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9};

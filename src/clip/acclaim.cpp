@@ -39,7 +39,7 @@ struct Bone {
 // The first is the root.
 struct Acclaim {
   std::vector<Bone> bones;  // Parents before children.
-  Vec3d root_place;
+  Vec3d root_position;
   double per_degree = kDegree;  // Radians per angle unit of the file; 1 if it uses radians.
 };
 
@@ -160,7 +160,7 @@ class AsfReader {
       } else if (words_.take("axis")) {
         if (auto done = read_axis_order(order); !done) return done;
       } else if (words_.take("position")) {
-        if (auto done = words_.vector(file_.root_place, "the position"); !done) return done;
+        if (auto done = words_.vector(file_.root_position, "the position"); !done) return done;
       } else if (words_.take("orientation")) {
         if (auto done = words_.vector(orientation, "the orientation"); !done) return done;
       } else {
@@ -323,7 +323,7 @@ Skeleton skeleton_of(const Acclaim& file) {
       joint.offset = file.bones[bone.parent].tip.as<float>();
       has_child[bone.parent] = true;
     } else {
-      joint.offset = file.root_place.as<float>();
+      joint.offset = file.root_position.as<float>();
     }
     joint.can_rotate = true;
     joint.can_translate = std::any_of(bone.channels.begin(), bone.channels.end(),
@@ -343,7 +343,7 @@ class AmcReader {
         file_(file),
         per_degree_(file.per_degree),
         max_poses_(std::max<size_t>(1'000'000, 4 * text.size())) {
-    for (size_t i = 0; i < file.bones.size(); ++i) places_.emplace(file.bones[i].name, i);
+    for (size_t i = 0; i < file.bones.size(); ++i) bone_of_.emplace(file.bones[i].name, i);
   }
 
   Result<Clip> read() {
@@ -388,10 +388,10 @@ class AmcReader {
   }
 
   Result<void> read_bone() {
-    const auto place = places_.find(std::string(words_.word()));
-    if (place == places_.end()) return words_.error("the name of a bone of the .asf");
+    const auto found = bone_of_.find(std::string(words_.word()));
+    if (found == bone_of_.end()) return words_.error("the name of a bone of the .asf");
     words_.take_on_line();
-    const Bone& bone = file_.bones[place->second];
+    const Bone& bone = file_.bones[found->second];
     const Pose pose = clip_.pose(clip_.frames - 1);
     Quatd turn;
     Vec3d move;
@@ -410,9 +410,9 @@ class AmcReader {
       return words_.error("the end of the line after " + std::to_string(bone.channels.size()) +
                           " numbers of " + bone.name);
     }
-    pose.rotations[place->second] = normalized(bone.axes * turn * conjugate(bone.axes)).as<float>();
-    const Vec3d rest = clip_.skeleton.joints[place->second].offset.as<double>();
-    pose.translations[place->second] = (rest + move).as<float>();
+    pose.rotations[found->second] = normalized(bone.axes * turn * conjugate(bone.axes)).as<float>();
+    const Vec3d rest = clip_.skeleton.joints[found->second].offset.as<double>();
+    pose.translations[found->second] = (rest + move).as<float>();
     words_.next();
     return {};
   }
@@ -422,7 +422,7 @@ class AmcReader {
   double per_degree_;
   // Joints times frames. A frame may be a single number, so the bytes do not bound them.
   size_t max_poses_;
-  std::map<std::string, size_t> places_;
+  std::map<std::string, size_t> bone_of_;
   Clip clip_;
 };
 

@@ -39,20 +39,20 @@ class BvhReader {
 
   // Finds the frame time without parsing it: the rest of the line of "Frame Time:", or the position
   // where that line is missing.
-  struct RatePlace {
+  struct RateText {
     size_t begin = 0, end = 0;
     bool has_label = false;
   };
-  Result<RatePlace> find_rate() {
+  Result<RateText> find_rate() {
     if (auto done = read_hierarchy(); !done) return done.error();
     if (auto done = read_count(); !done) return done.error();
     cursor_.skip_space();
-    RatePlace place;
-    place.has_label = cursor_.take_label("Frame Time");
+    RateText rate;
+    rate.has_label = cursor_.take_label("Frame Time");
     cursor_.skip_spaces();
-    place.begin = place.end = cursor_.offset();
-    if (place.has_label) cursor_.take_name(), place.end = cursor_.offset();
-    return place;
+    rate.begin = rate.end = cursor_.offset();
+    if (rate.has_label) cursor_.take_name(), rate.end = cursor_.offset();
+    return rate;
   }
 
  private:
@@ -183,9 +183,9 @@ class BvhReader {
     if (again) return cursor_.error("a channel that the joint does not have yet as " + which);
     cursor_.take(channel->name);
     if (channel->rotates) {
-      const int place = channels.order.count++;
-      channels.order.axis[place] = channel->axis;
-      channels.rotation[place] = document_.numbers;
+      const int slot = channels.order.count++;
+      channels.order.axis[slot] = channel->axis;
+      channels.rotation[slot] = document_.numbers;
     } else {
       channels.position[channel->axis] = document_.numbers;
     }
@@ -350,8 +350,8 @@ class BvhReader {
   static int channel_count(const BvhChannels& channels) {
     const auto& position = channels.position;
     return channels.order.count +
-           static_cast<int>(std::count_if(position.begin(), position.end(),
-                                          [](int place) { return place >= 0; }));
+           static_cast<int>(
+               std::count_if(position.begin(), position.end(), [](int slot) { return slot >= 0; }));
   }
 
   void set_pose(const std::vector<double>& numbers, Pose pose) const {
@@ -385,13 +385,13 @@ class BvhReader {
 Result<std::string> with_bvh_rate(const std::string& text, const std::string& name, double fps) {
   BvhDocument document;
   document.text = text;
-  Result<BvhReader::RatePlace> place = BvhReader(document, name).find_rate();
-  if (!place) return place.error();
+  Result<BvhReader::RateText> rate = BvhReader(document, name).find_rate();
+  if (!rate) return rate.error();
   std::string time;
   append_fixed(time, 1 / fps, 9);
-  if (!place->has_label) time = "Frame Time: " + time + "\n";
-  if (place->has_label && text[place->begin - 1] == ':') time = " " + time;
-  document.text.replace(place->begin, place->end - place->begin, time);
+  if (!rate->has_label) time = "Frame Time: " + time + "\n";
+  if (rate->has_label && text[rate->begin - 1] == ':') time = " " + time;
+  document.text.replace(rate->begin, rate->end - rate->begin, time);
   return std::move(document.text);
 }
 

@@ -65,8 +65,8 @@ void mark_still_joints(Clip& clip) {
     for (int f = 0; f < clip.frames && joint.still; ++f) {
       const ConstPose pose = clip.pose(f);
       const float turn = 2 * length((conjugate(joint.rest) * pose.rotations[j]).xyz());
-      const float way = length(pose.translations[j] - joint.offset);
-      joint.still = turn <= kRounding && way <= kRounding * size;
+      const float shift = length(pose.translations[j] - joint.offset);
+      joint.still = turn <= kRounding && shift <= kRounding * size;
     }
   }
 }
@@ -75,9 +75,9 @@ void sample(const Clip& clip, double frame, Pose out) {
   assert(clip.frames > 0);
   assert(out.rotations.size() == clip.joints() && out.translations.size() == clip.joints());
   const double last = clip.frames - 1;
-  const double place = frame > 0 ? std::min(frame, last) : 0.0;  // NaN counts as 0.
-  const int before = static_cast<int>(place);
-  const float t = static_cast<float>(place - before);
+  const double position = frame > 0 ? std::min(frame, last) : 0.0;  // NaN counts as 0.
+  const int before = static_cast<int>(position);
+  const float t = static_cast<float>(position - before);
   const ConstPose a = clip.pose(before);
   if (t == 0) {
     std::copy(a.rotations.begin(), a.rotations.end(), out.rotations.begin());

@@ -20,7 +20,7 @@ Clip on_tree(const Clip& clip, const DeformTree& tree) {
                   seen_from(placed[above], own.position)};
   };
   const Clip rest = rest_clip(clip.skeleton);
-  const std::vector<Placed> at_rest = place(clip.skeleton, rest.pose(0));
+  const std::vector<Placed> at_rest = world_joints(clip.skeleton, rest.pose(0));
   for (size_t j = 0; j < tree.joints.size(); ++j) {
     Joint joint = clip.skeleton.joints[tree.joints[j]];
     joint.parent = tree.parents[j];
@@ -33,7 +33,7 @@ Clip on_tree(const Clip& clip, const DeformTree& tree) {
   }
   out.resize(clip.frames);
   for (int f = 0; f < clip.frames; ++f) {
-    const std::vector<Placed> placed = place(clip.skeleton, clip.pose(f));
+    const std::vector<Placed> placed = world_joints(clip.skeleton, clip.pose(f));
     const Pose pose = out.pose(f);
     for (size_t j = 0; j < tree.joints.size(); ++j) {
       const Placed now = local(placed, j);

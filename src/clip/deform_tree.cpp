@@ -117,7 +117,7 @@ class TreeFinder {
   void look_at_motion() {
     const int step = std::max(1, clip_.frames / kFramesLookedAt);
     for (int f = 0; f < clip_.frames; f += step) {
-      poses_.push_back(place(clip_.skeleton, clip_.pose(f)));
+      poses_.push_back(world_joints(clip_.skeleton, clip_.pose(f)));
     }
   }
 
@@ -162,8 +162,8 @@ class TreeFinder {
       if (picked_[parent]) return false;
       const Vec3 first = seen_from(poses_.front()[parent], poses_.front()[at].position);
       for (const auto& pose : poses_) {
-        const Vec3 place = seen_from(pose[parent], pose[at].position);
-        if (length(place - first) > kStays * size) return false;
+        const Vec3 position = seen_from(pose[parent], pose[at].position);
+        if (length(position - first) > kStays * size) return false;
       }
       path.push_back(parent);
       at = parent;
@@ -278,14 +278,14 @@ class TreeFinder {
   // Parents before children, otherwise in file order.
   DeformTree in_order() const {
     DeformTree tree;
-    std::vector<int> place(count(), -1);
+    std::vector<int> new_index(count(), -1);
     const auto total = static_cast<size_t>(std::count(picked_.begin(), picked_.end(), true));
     while (tree.joints.size() < total) {
       for (size_t j = 0; j < count(); ++j) {
-        if (!picked_[j] || place[j] >= 0) continue;
-        const int above = parent_[j] < 0 ? -1 : place[parent_[j]];
+        if (!picked_[j] || new_index[j] >= 0) continue;
+        const int above = parent_[j] < 0 ? -1 : new_index[parent_[j]];
         if (parent_[j] >= 0 && above < 0) continue;
-        place[j] = static_cast<int>(tree.joints.size());
+        new_index[j] = static_cast<int>(tree.joints.size());
         tree.joints.push_back(static_cast<int>(j));
         tree.parents.push_back(above);
       }

@@ -28,7 +28,7 @@ inline Vec3 seen_from(const Placed& from, Vec3 to) {
 }
 
 // All joints in a pose, [joints].
-inline std::vector<Placed> place(const Skeleton& skeleton, ConstPose pose) {
+inline std::vector<Placed> world_joints(const Skeleton& skeleton, ConstPose pose) {
   std::vector<Quat> rotations(skeleton.joints.size());
   std::vector<Vec3> positions(skeleton.joints.size());
   world_pose(skeleton, pose, {rotations, positions});

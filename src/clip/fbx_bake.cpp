@@ -59,7 +59,7 @@ void FbxBake::bake() {
   if (!stack_) poser.get_pose(source.pose(0));
   std::vector<Stretch> above(joints);
   std::vector<bool> turned(joints), moved(joints);
-  std::vector<std::vector<Vec3d>> angles(joints), places(joints);
+  std::vector<std::vector<Vec3d>> angles(joints), translations(joints);
   for (size_t i = 0; i < times_.size(); ++i) {
     const ConstPose now = changed_.pose(static_cast<int>(i));
     if (stack_) sample(clip(), source_frames_[i], source.pose(0));
@@ -70,7 +70,7 @@ void FbxBake::bake() {
     poser.set_rotations(now.rotations);
     for (size_t j = 0; j < joints; ++j) {
       const FbxModel& model = model_of(j);
-      const auto& [translation, rotation, scale] = poser.place(j).parts;
+      const auto& [translation, rotation, scale] = poser.channels(j).parts;
       const bool turns = !(now.rotations[j] == then.rotations[j]);
       const bool moves = !(now.translations[j] == then.translations[j]) ||
                          !(poser.above(j) == above[j]) ||
@@ -78,8 +78,8 @@ void FbxBake::bake() {
       const Quatd own = poser.file_rotation(j, now.rotations[j]);
       const Vec3d near = i == 0 ? rotation : angles[j].back();
       angles[j].push_back(turns ? model.angles_of(own, near) : unwound(rotation, near));
-      places[j].push_back(moves ? poser.file_translation(j, now.translations[j], own)
-                                : translation);
+      translations[j].push_back(moves ? poser.file_translation(j, now.translations[j], own)
+                                      : translation);
       turned[j] = turned[j] || turns;
       moved[j] = moved[j] || moves;
     }
@@ -87,7 +87,7 @@ void FbxBake::bake() {
   for (size_t j = 0; j < joints; ++j) {
     const auto model = static_cast<size_t>(document_.joint_models[j]);
     if (turned[j]) parts_[{model, kFbxRotation}] = std::move(angles[j]);
-    if (moved[j]) parts_[{model, kFbxTranslation}] = std::move(places[j]);
+    if (moved[j]) parts_[{model, kFbxTranslation}] = std::move(translations[j]);
   }
 }
 

@@ -24,14 +24,14 @@ FbxPoser::FbxPoser(const FbxDocument& document, const FbxStack* stack)
       stack_(stack),
       axes_(document.settings.to_y_up()),
       metres_(document.settings.centimetres / 100),
-      places_(document.joint_models.size()),
-      locals_(places_.size()),
-      own_(places_.size()),
-      rotations_(places_.size()),
-      above_(places_.size()),
-      whole_(places_.size()),
-      passed_(places_.size()) {
-  for (size_t j = 0; j < places_.size(); ++j) places_[j] = model(j).place;
+      channels_(document.joint_models.size()),
+      locals_(channels_.size()),
+      own_(channels_.size()),
+      rotations_(channels_.size()),
+      above_(channels_.size()),
+      whole_(channels_.size()),
+      passed_(channels_.size()) {
+  for (size_t j = 0; j < channels_.size(); ++j) channels_[j] = model(j).channels;
 }
 
 const FbxModel& FbxPoser::model(size_t joint) const {
@@ -39,17 +39,18 @@ const FbxModel& FbxPoser::model(size_t joint) const {
 }
 
 void FbxPoser::set_time(int64_t time) {
-  for (size_t j = 0; j < places_.size(); ++j) {
+  for (size_t j = 0; j < channels_.size(); ++j) {
     if (stack_) {
-      places_[j] = stack_->place(document_, static_cast<size_t>(document_.joint_models[j]), time);
+      channels_[j] =
+          stack_->channels(document_, static_cast<size_t>(document_.joint_models[j]), time);
     }
-    locals_[j] = model(j).local(places_[j]);
-    own_[j] = scale_or(places_[j].parts[kFbxScale], model(j).place.parts[kFbxScale]);
+    locals_[j] = model(j).local(channels_[j]);
+    own_[j] = scale_or(channels_[j].parts[kFbxScale], model(j).channels.parts[kFbxScale]);
   }
 }
 
 void FbxPoser::get_pose(Pose out) {
-  for (size_t j = 0; j < places_.size(); ++j) {
+  for (size_t j = 0; j < channels_.size(); ++j) {
     const bool is_root = model(j).parent < 0;
     const Quatd turn = is_root ? axes_ * locals_[j].rotation : locals_[j].rotation;
     const Quat half = own_[j].turn;
@@ -62,7 +63,7 @@ void FbxPoser::get_pose(Pose out) {
 }
 
 void FbxPoser::set_rotations(std::span<const Quat> rotations) {
-  for (size_t j = 0; j < places_.size(); ++j) add_joint(j, rotations[j]);
+  for (size_t j = 0; j < channels_.size(); ++j) add_joint(j, rotations[j]);
 }
 
 // See clip/stretch.h. With W' and B' of the parent, whose own scale is S', a model that turns by C
@@ -94,7 +95,7 @@ Vec3d FbxPoser::file_translation(size_t joint, Vec3 translation, Quatd rotation)
   Vec3d at = translation.as<double>() / metres_;
   if (model(joint).parent < 0) at = rotate(conjugate(axes_), at);
   return above_[joint].undo(at) -
-         model(joint).pivot_shift(rotation, places_[joint].parts[kFbxScale]);
+         model(joint).pivot_shift(rotation, channels_[joint].parts[kFbxScale]);
 }
 
 namespace {
@@ -208,7 +209,7 @@ class FbxClipsReader {
         joint.skin = skin->second.first;
         joint.skin_weight = skin->second.second;
       }
-      const bool is_flat = !split_scale(of.place.parts[kFbxScale]).stretch.can_undo();
+      const bool is_flat = !split_scale(of.channels.parts[kFbxScale]).stretch.can_undo();
       const auto is_below = [&](int child) {
         return models_[static_cast<size_t>(child)].parent == document_.joint_models[j];
       };
@@ -246,14 +247,14 @@ class FbxClipsReader {
     const Quatd axes = document_.settings.to_y_up();
     const double metres = document_.settings.centimetres / 100;
     std::vector<Quatd> turns(joints);
-    std::vector<Vec3d> places(joints);
+    std::vector<Vec3d> positions(joints);
     for (size_t j = 0; j < joints; ++j) {
       const auto m = static_cast<size_t>(document_.joint_models[j]);
       const int parent = rest.skeleton.joints[j].parent;
       const Quatd above = parent < 0 ? Quatd{} : turns[static_cast<size_t>(parent)];
-      const Vec3d from = parent < 0 ? Vec3d{} : places[static_cast<size_t>(parent)];
+      const Vec3d from = parent < 0 ? Vec3d{} : positions[static_cast<size_t>(parent)];
       turns[j] = normalized(above * rest.rotations[j].as<double>());
-      places[j] = from + rotate(above, rest.translations[j].as<double>());
+      positions[j] = from + rotate(above, rest.translations[j].as<double>());
       const auto bind = document_.bind.find(m);
       if (bind == document_.bind.end() || !is_always_animated(m)) continue;
       const auto& n = bind->second;
@@ -261,9 +262,9 @@ class FbxClipsReader {
           split_matrix({Vec3d{n[0], n[1], n[2]}, {n[4], n[5], n[6]}, {n[8], n[9], n[10]}});
       if (!split.stretch.can_undo()) continue;
       turns[j] = normalized(axes * split.rotation.as<double>());
-      places[j] = rotate(axes, Vec3d{n[12], n[13], n[14]}) * metres;
+      positions[j] = rotate(axes, Vec3d{n[12], n[13], n[14]}) * metres;
       rest.rotations[j] = normalized(conjugate(above) * turns[j]).as<float>();
-      rest.translations[j] = rotate(conjugate(above), places[j] - from).as<float>();
+      rest.translations[j] = rotate(conjugate(above), positions[j] - from).as<float>();
     }
   }
 

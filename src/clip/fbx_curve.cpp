@@ -172,12 +172,12 @@ class Fbx7CurveReader {
 // cubic one `s` or `b` and the slopes at this key and the next, or else automatic slopes.
 FbxKey fbx6_key(const FbxTree& tree, const FbxNode& keys, size_t letter) {
   FbxKey out;
-  const std::string kind = tree.text(keys, letter), how = tree.text(keys, letter + 1);
-  if (kind == "C") out.kind = how == "n" ? FbxKey::Kind::next : FbxKey::Kind::constant;
+  const std::string kind = tree.text(keys, letter), mode = tree.text(keys, letter + 1);
+  if (kind == "C") out.kind = mode == "n" ? FbxKey::Kind::next : FbxKey::Kind::constant;
   if (kind != "U") return out;
   out.kind = FbxKey::Kind::cubic;
   double slope = 0, next_slope = 0;
-  out.is_auto = !((how == "s" || how == "b") && tree.number(keys, letter + 2, slope) &&
+  out.is_auto = !((mode == "s" || mode == "b") && tree.number(keys, letter + 2, slope) &&
                   tree.number(keys, letter + 3, next_slope));
   out.slope = slope_of(slope);
   out.next_slope = slope_of(next_slope);

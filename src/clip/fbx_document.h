@@ -43,7 +43,7 @@ struct FbxSettings {
 };
 
 // Translation and scale in the file's unit, Euler angles in degrees: the animated numbers, by part.
-struct FbxPlace {
+struct FbxChannels {
   std::array<Vec3d, 3> parts = {Vec3d{}, Vec3d{}, Vec3d{1, 1, 1}};
 };
 
@@ -64,8 +64,8 @@ struct FbxModel {
   std::string id;
   std::string kind;  // "LimbNode", "Mesh", ...
   const FbxNode* node = nullptr;
-  int parent = -1;  // An index smaller than the model's own, or -1.
-  FbxPlace place;   // At the time of saving.
+  int parent = -1;       // An index smaller than the model's own, or -1.
+  FbxChannels channels;  // At the time of saving.
   EulerOrder order = {3, {2, 1, 0}};
   Quatd before, after;  // Constant factors left and right of the rotation.
   Vec3d rotation_offset, rotation_pivot, scale_offset, scale_pivot;
@@ -75,7 +75,7 @@ struct FbxModel {
 
   bool is_camera_or_light() const;
   // T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1, which has no shear.
-  FbxLocal local(const FbxPlace& at) const;
+  FbxLocal local(const FbxChannels& at) const;
   // What the pivots add to T if the model's rotation, `before` and `after` included, is this one.
   Vec3d pivot_shift(Quatd rotation, Vec3d scale) const;
   // The part of it that the rotation turns.
@@ -127,7 +127,7 @@ struct FbxStack {
   // The time of a frame of the clip.
   int64_t time_of(double frame) const;
   // The numbers of a model at `time`, as all layers together have them.
-  FbxPlace place(const FbxDocument& document, size_t model, int64_t time) const;
+  FbxChannels channels(const FbxDocument& document, size_t model, int64_t time) const;
 };
 
 struct FbxDocument {
@@ -204,7 +204,7 @@ class FbxPoser {
   // Sets the rotations that the clip has instead; those of parents act on scales below.
   void set_rotations(std::span<const Quat> rotations);
   // The file's numbers at that time.
-  const FbxPlace& place(size_t joint) const { return places_[joint]; }
+  const FbxChannels& channels(size_t joint) const { return channels_[joint]; }
   // The file's rotation of a joint, `before` and `after` included, for one of the clip.
   Quatd file_rotation(size_t joint, Quat rotation) const;
   // Its `Lcl Translation` for a translation of the clip and such a rotation.
@@ -220,7 +220,7 @@ class FbxPoser {
   const FbxStack* stack_;
   Quatd axes_;
   double metres_;
-  std::vector<FbxPlace> places_;
+  std::vector<FbxChannels> channels_;
   std::vector<FbxLocal> locals_;
   std::vector<NodeScale> own_;
   std::vector<Quat> rotations_;  // Of the clip, with the half turn of the own scale.

@@ -165,7 +165,7 @@ class FbxFormatter {
   bool is_root(size_t j) const { return joint(j).parent < 0; }
 
   // In centimetres with +Y up.
-  Vec3d place(size_t j, Vec3 translation) const {
+  Vec3d translation_of(size_t j, Vec3 translation) const {
     const Vec3d v = translation.as<double>() * scale_;
     return is_root(j) ? rotate(turn_, v) : v;
   }
@@ -193,7 +193,7 @@ class FbxFormatter {
     list.add("P") = property("RotationActive", "bool", "", "", {Value::small(1)});
     list.add("P") = property("InheritType", "enum", "", "", {Value::small(1)});
     list.add("P") = vector_property("PreRotation", pre_angles(j));
-    list.add("P") = vector_property("Lcl Translation", place(j, joint(j).offset));
+    list.add("P") = vector_property("Lcl Translation", translation_of(j, joint(j).offset));
     list.add("P") = vector_property("Lcl Rotation", {});
     list.add("P") = vector_property("Lcl Scaling", {1, 1, 1});
     add_object(std::move(model));
@@ -219,14 +219,14 @@ class FbxFormatter {
     pose.add("Version", {Value::small(100)});
     pose.add("NbPoseNodes", {Value::small(static_cast<int32_t>(skeleton_.joints.size()))});
     std::vector<Quatd> turns;
-    std::vector<Vec3d> places;
+    std::vector<Vec3d> positions;
     for (size_t j = 0; j < skeleton_.joints.size(); ++j) {
       const auto parent = static_cast<size_t>(std::max(joint(j).parent, 0));
-      const Vec3d at = place(j, joint(j).offset);
-      places.push_back(is_root(j) ? at : places[parent] + rotate(turns[parent], at));
+      const Vec3d at = translation_of(j, joint(j).offset);
+      positions.push_back(is_root(j) ? at : positions[parent] + rotate(turns[parent], at));
       turns.push_back(is_root(j) ? pre_rotation(j) : normalized(turns[parent] * pre_rotation(j)));
       const Vec3d x = rotate(turns[j], Vec3d{1, 0, 0}), y = rotate(turns[j], Vec3d{0, 1, 0}),
-                  z = rotate(turns[j], Vec3d{0, 0, 1}), p = places[j];
+                  z = rotate(turns[j], Vec3d{0, 0, 1}), p = positions[j];
       const double matrix[] = {x.x, x.y, x.z, 0, y.x, y.y, y.z, 0,
                                z.x, z.y, z.z, 0, p.x, p.y, p.z, 1};
       FbxNewNode& node = pose.add("PoseNode");
@@ -247,17 +247,17 @@ class FbxFormatter {
     connect(layer, stack);
     takes_.children.push_back(new_fbx_take(motion.name, 0, times.back()));
     for (size_t j = 0; j < clip.joints(); ++j) {
-      std::vector<Vec3d> places, turns;
+      std::vector<Vec3d> translations, turns;
       EulerAngles near = {};
       for (int f = 0; f < clip.frames; ++f) {
         const ConstPose pose = clip.pose(f);
-        places.push_back(place(j, pose.translations[j]));
+        translations.push_back(translation_of(j, pose.translations[j]));
         near = quat_to_euler(kNewOrder, conjugate(pre_rotation(j)) * turned(j, pose.rotations[j]),
                              near);
         turns.push_back(xyz(near));
       }
       const Joint& of = clip.skeleton.joints[j];
-      if (of.can_translate) add_curves(layer, j, 0, times, places);
+      if (of.can_translate) add_curves(layer, j, 0, times, translations);
       if (of.can_rotate) add_curves(layer, j, 1, times, turns);
     }
   }

@@ -86,7 +86,7 @@ Result<FbxModel> read_model(const FbxTree& tree, const FbxNode& node, const FbxN
   // matrices.
   int is_active = 1, order = 0, inherit = 1;
   Vec3d before, after, geometric;
-  auto& [translation, rotation, scale] = out.place.parts;
+  auto& [translation, rotation, scale] = out.channels.parts;
   properties.read("Lcl Translation", translation);
   properties.read("Lcl Rotation", rotation);
   properties.read("Lcl Scaling", scale);
@@ -249,7 +249,7 @@ bool FbxModel::is_camera_or_light() const {
   return kind == "Camera" || kind == "CameraSwitcher" || kind == "Light";
 }
 
-FbxLocal FbxModel::local(const FbxPlace& at) const {
+FbxLocal FbxModel::local(const FbxChannels& at) const {
   const auto& [translation, rotation, scale] = at.parts;
   const Quatd turn = rotation_of(rotation);
   return {translation + pivot_shift(turn, scale), turn, scale};

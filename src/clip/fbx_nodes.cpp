@@ -47,15 +47,15 @@ class NodePlacer {
         turns_(document.models.size()),
         right_(turns_.size()),
         shown_(turns_.size()),
-        places_(turns_.size()),
+        channels_(turns_.size()),
         exact_(turns_.size()),
         even_(turns_.size()) {}
 
   // For a model after its parent, at the same time.
   FbxTransform transform(size_t which, int64_t time) {
     const FbxModel& model = document_.models[which];
-    places_[which] = stack_ ? stack_->place(document_, which, time) : model.place;
-    const FbxLocal local = model.local(places_[which]);
+    channels_[which] = stack_ ? stack_->channels(document_, which, time) : model.channels;
+    const FbxLocal local = model.local(channels_[which]);
     FbxTransform out{local.translation, local.rotation, local.scale};
     const Affine own = linear(local.rotation, local.scale);
     turns_[which] = local.rotation;
@@ -83,7 +83,7 @@ class NodePlacer {
   // Without that of the parent where it is not inherited.
   Vec3d scale_of(const FbxModel& model, const FbxLocal& local) const {
     if (model.inherit != FbxModel::Inherit::Rrs) return local.scale;
-    const Vec3d above = places_[static_cast<size_t>(model.parent)].parts[kFbxScale];
+    const Vec3d above = channels_[static_cast<size_t>(model.parent)].parts[kFbxScale];
     const auto undo = [](double size, double by) { return std::abs(by) > 1e-9 ? size / by : size; };
     return {undo(local.scale.x, above.x), undo(local.scale.y, above.y),
             undo(local.scale.z, above.z)};
@@ -129,7 +129,7 @@ class NodePlacer {
   std::vector<Quatd> turns_;   // The product of the rotations.
   std::vector<Affine> right_;  // The linear part that FBX wants,
   std::vector<Affine> shown_;  // and that the product of transforms gives.
-  std::vector<FbxPlace> places_;
+  std::vector<FbxChannels> channels_;
   std::vector<char> exact_;  // Whether both are equal.
   std::vector<char> even_;   // Whether all scales have been the same on all axes.
 };

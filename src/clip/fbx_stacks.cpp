@@ -231,9 +231,9 @@ bool FbxStack::animates(size_t model, size_t part) const {
   });
 }
 
-FbxPlace FbxStack::place(const FbxDocument& document, size_t model, int64_t time) const {
+FbxChannels FbxStack::channels(const FbxDocument& document, size_t model, int64_t time) const {
   const FbxModel& of = document.models[model];
-  FbxPlace out = of.place;
+  FbxChannels out = of.channels;
   const bool has_solo =
       std::ranges::any_of(layers, [](const FbxLayer& layer) { return layer.is_solo; });
   for (const FbxLayer& layer : layers) {

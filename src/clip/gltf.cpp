@@ -255,7 +255,7 @@ class GlbFormatter {
     };
     for (size_t j = 0; j < clip_.joints(); ++j) {
       const Joint& joint = clip_.skeleton.joints[j];
-      if (joint.can_translate) add(j, "translation", 3, places_of(j));
+      if (joint.can_translate) add(j, "translation", 3, translations_of(j));
       if (joint.can_rotate) add(j, "rotation", 4, turns_of(j));
     }
     if (channels.empty()) return;
@@ -265,7 +265,7 @@ class GlbFormatter {
     animation["samplers"] = std::move(samplers);
   }
 
-  std::vector<float> places_of(size_t joint) const {
+  std::vector<float> translations_of(size_t joint) const {
     std::vector<float> numbers;
     for (int f = 0; f < clip_.frames; ++f) {
       const Vec3 t = clip_.pose(f).translations[joint];

@@ -305,8 +305,8 @@ class WeightReader {
     if (!object.is_object()) return -1;
     const auto member = object.find(key);
     if (member == object.end() || !member->is_number_unsigned()) return -1;
-    const auto place = member->get<uint64_t>();
-    return place < list(json_, of).size() ? static_cast<int>(place) : -1;
+    const auto value = member->get<uint64_t>();
+    return value < list(json_, of).size() ? static_cast<int>(value) : -1;
   }
 
   // Adds one set of four joints per vertex; returns whether there was one.
@@ -323,10 +323,10 @@ class WeightReader {
     left_ -= std::min(left_, which.numbers.size() + weights.numbers.size());
     if (!found) return false;
     for (size_t i = 0; i < std::min(which.numbers.size(), weights.numbers.size()); ++i) {
-      const auto place = static_cast<size_t>(std::max(which.numbers[i], 0.0f));
-      if (!(weights.numbers[i] > 0) || place >= joints.size()) continue;
+      const auto slot = static_cast<size_t>(std::max(which.numbers[i], 0.0f));
+      if (!(weights.numbers[i] > 0) || slot >= joints.size()) continue;
       // The skins were checked before, so these are nodes.
-      GltfNode& node = document_.nodes[joints[place].get<size_t>()];
+      GltfNode& node = document_.nodes[joints[slot].get<size_t>()];
       if (node.skin < 0) node.skin = skin;
       if (node.skin == skin) node.skin_weight += weights.numbers[i];
     }

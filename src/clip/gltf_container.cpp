@@ -225,7 +225,7 @@ std::string_view GltfContainer::bytes_of(const GltfPart& view) const {
   return {};
 }
 
-GltfPlace gltf_added_at(const GltfContainer& container) {
+GltfPosition gltf_added_at(const GltfContainer& container) {
   if (container.has_bin) return {0, padded(container.buffers[0]->size())};
   return {container.buffers.size(), 0};
 }
@@ -236,11 +236,11 @@ std::string write_gltf_container(const GltfContainer& container, GltfJson json,
   bool has_bin = container.has_bin;
   if (has_bin) bin = *container.buffers[0];
   if (!added.empty()) {
-    const GltfPlace place = gltf_added_at(container);
+    const GltfPosition added_at = gltf_added_at(container);
     // In a GLB the first buffer is the chunk; a new chunk cannot come before existing buffers.
-    if (container.binary && place.buffer == 0) {
+    if (container.binary && added_at.buffer == 0) {
       has_bin = true;
-      bin.resize(place.offset);
+      bin.resize(added_at.offset);
       bin += added;
       json["buffers"][0]["byteLength"] = bin.size();
     } else {

@@ -40,11 +40,11 @@ std::string write_gltf_container(const GltfContainer& container, GltfJson json,
                                  const std::string& added);
 
 // Where bytes that are added to the file go: the buffer and the offset in it.
-struct GltfPlace {
+struct GltfPosition {
   size_t buffer = 0;
   size_t offset = 0;  // A multiple of 4.
 };
-GltfPlace gltf_added_at(const GltfContainer& container);
+GltfPosition gltf_added_at(const GltfContainer& container);
 
 // gltf_accessor.cpp: numbers in the binary data.
 struct GltfValues {

@@ -41,14 +41,14 @@ class AnimationWriter {
     if (animation_) start_ = animation_->start;
     keeps_time_ = changed_.frames == clip_.frames;
     for (int i = 0; i < changed_.frames; ++i) keeps_time_ = keeps_time_ && source_frames_[i] == i;
-    find_places();
+    find_poses();
   }
 
   // The animation's JSON; without channels if the file has no animation and nothing moves.
   GltfJson write() {
     GltfJson result = GltfJson::object();
     if (animation_) {
-      result = document_.container.json["animations"][place()];
+      result = document_.container.json["animations"][animation_index()];
       const std::vector<GltfChannel>& channels = animation_->channels;
       kept_samplers_.assign(result["samplers"].size(), -1);
       for (size_t c = 0; c < channels.size(); ++c) write_channel(result, c, channels[c]);
@@ -67,7 +67,7 @@ class AnimationWriter {
  private:
   // Computes the file's poses at the source times of the new frames, the new frames in the file's
   // terms, and which of their positions differ from the file's.
-  void find_places() {
+  void find_poses() {
     source_.skeleton = in_file_.skeleton = clip_.skeleton;
     source_.resize(changed_.frames);
     in_file_.resize(changed_.frames);
@@ -103,7 +103,8 @@ class AnimationWriter {
   GltfTrack track_of(const GltfChannel& channel) const {
     GltfChecker checker("");
     GltfTrack track;
-    [[maybe_unused]] const bool read = read_gltf_track(document_, place(), channel, checker, track);
+    [[maybe_unused]] const bool read =
+        read_gltf_track(document_, animation_index(), channel, checker, track);
     assert(read);  // It was valid when it was read.
     return track;
   }
@@ -131,7 +132,7 @@ class AnimationWriter {
   }
 
   double seconds(double frame) const { return start_ + frame * frame_time_; }
-  size_t place() const { return animation_ - document_.animations.data(); }
+  size_t animation_index() const { return animation_ - document_.animations.data(); }
 
   bool has_channel(int node, GltfPath path) const {
     if (!animation_) return false;
@@ -253,8 +254,9 @@ size_t GltfDataWriter::add(std::span<const float> numbers, std::string_view type
   if (view_ < 0) {
     view_ = static_cast<int>(json_["bufferViews"].size());
     first_ = begin;
-    json_["bufferViews"].push_back(
-        {{"buffer", place_.buffer}, {"byteOffset", place_.offset + begin}, {"byteLength", 0}});
+    json_["bufferViews"].push_back({{"buffer", added_at_.buffer},
+                                    {"byteOffset", added_at_.offset + begin},
+                                    {"byteLength", 0}});
   }
   for (const float number : numbers) {
     append_little_endian(std::bit_cast<uint32_t>(number), 4, bytes_);

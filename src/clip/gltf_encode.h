@@ -18,9 +18,9 @@ std::string encode_gltf(const GltfDocument& document, std::span<const ClipEdit> 
 // writer share a buffer view.
 class GltfDataWriter {
  public:
-  // Appends to `bytes`, which begin at `place` in the file; both outlive the writer.
-  GltfDataWriter(GltfPlace place, GltfJson& json, std::string& bytes)
-      : place_(place), json_(json), bytes_(bytes) {}
+  // Appends to `bytes`, which begin at `added_at` in the file; both outlive the writer.
+  GltfDataWriter(GltfPosition added_at, GltfJson& json, std::string& bytes)
+      : added_at_(added_at), json_(json), bytes_(bytes) {}
 
   // Adds an accessor of floats of `type` ("SCALAR", "VEC3", ...), with min and max if `bounds`;
   // returns its index in the file.
@@ -30,7 +30,7 @@ class GltfDataWriter {
   size_t add_times(double start, double frame_time, int frames);
 
  private:
-  GltfPlace place_;
+  GltfPosition added_at_;
   GltfJson& json_;
   std::string& bytes_;
   int view_ = -1;     // Made with the first numbers.

@@ -27,9 +27,9 @@ size_t push(GltfJson& json, const char* list, GltfJson element) {
 
 class FigureWriter {
  public:
-  FigureWriter(GltfPlace place, GltfJson& json, std::string& bytes,
+  FigureWriter(GltfPosition added_at, GltfJson& json, std::string& bytes,
                std::span<const FigureJoint> joints, const std::string& name)
-      : place_(place), json_(json), bytes_(bytes), joints_(joints), name_(name) {}
+      : added_at_(added_at), json_(json), bytes_(bytes), joints_(joints), name_(name) {}
 
   void add_sticks() {
     std::vector<size_t> order;
@@ -39,7 +39,7 @@ class FigureWriter {
       order.push_back(j);
       inverse_binds.push_back(inverse(joint.world));
       if (joint.parent >= 0 && !joint.wanders) {
-        add_stick(joint.parent, joint.world.place);
+        add_stick(joint.parent, joint.world.origin);
       }
     }
     const size_t skin = add_skin(order, inverse_binds);
@@ -96,7 +96,7 @@ class FigureWriter {
   }
 
  private:
-  GltfDataWriter writer() { return {place_, json_, bytes_}; }
+  GltfDataWriter writer() { return {added_at_, json_, bytes_}; }
 
   // Adds a skin with the joints in `order` and their inverse bind matrices; returns its index.
   size_t add_skin(std::span<const size_t> order, std::span<const Affine> inverse_binds) {
@@ -162,7 +162,7 @@ class FigureWriter {
   }
 
   void add_stick(size_t joint, Vec3d tip) {
-    const Vec3d base = joints_[joint].world.place, along = tip - base;
+    const Vec3d base = joints_[joint].world.origin, along = tip - base;
     const double size = length(along);
     // A stick shorter than a tenth of a millimetre is invisible and has no direction.
     if (!(size > 1e-4)) return;
@@ -205,8 +205,8 @@ class FigureWriter {
   // Adds an accessor of all bytes from `begin` on, with its own view.
   size_t add_accessor(size_t begin, int component, size_t count, const char* type, int target) {
     const size_t view = push(json_, "bufferViews",
-                             {{"buffer", place_.buffer},
-                              {"byteOffset", place_.offset + begin},
+                             {{"buffer", added_at_.buffer},
+                              {"byteOffset", added_at_.offset + begin},
                               {"byteLength", bytes_.size() - begin},
                               {"target", target}});
     return push(
@@ -214,7 +214,7 @@ class FigureWriter {
         {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
   }
 
-  GltfPlace place_;
+  GltfPosition added_at_;
   GltfJson& json_;
   std::string& bytes_;
   std::span<const FigureJoint> joints_;
@@ -230,14 +230,14 @@ void append_matrix(std::vector<float>& numbers, const Affine& matrix) {
     append(numbers, column);
     numbers.push_back(0);
   }
-  append(numbers, matrix.place);
+  append(numbers, matrix.origin);
   numbers.push_back(1);
 }
 
-void add_figure(GltfPlace place, GltfJson& json, std::string& bytes,
+void add_figure(GltfPosition added_at, GltfJson& json, std::string& bytes,
                 std::span<const FigureJoint> joints, const std::string& name,
                 const SkinnedBody* body) {
-  FigureWriter writer(place, json, bytes, joints, name);
+  FigureWriter writer(added_at, json, bytes, joints, name);
   if (body) {
     writer.add_body(*body);
   } else {

@@ -24,11 +24,11 @@ struct FigureJoint {
 };
 
 // Adds a skin with all `joints`, a mesh on it, and a node in the scene that shows the mesh, to
-// `json`; their data is appended to `bytes`, which begin at `place` in the file. The mesh is
+// `json`; their data is appended to `bytes`, which begin at `added_at` in the file. The mesh is
 // `body`, whose binds are on joints of the list; the other joints keep their positions on their
 // parents. If it is null, the mesh is an octahedron from every joint to each of its children at
 // rest. `name`: the node's name, before the kind of figure.
-void add_figure(GltfPlace place, GltfJson& json, std::string& bytes,
+void add_figure(GltfPosition added_at, GltfJson& json, std::string& bytes,
                 std::span<const FigureJoint> joints, const std::string& name,
                 const SkinnedBody* body);
 

@@ -157,8 +157,8 @@ int GltfPart::index(const std::string& key, size_t size) const {
 }
 
 int GltfPart::as_index(size_t size) const {
-  uint64_t place = 0;
-  if (to_count(*json_, place) && place < size) return static_cast<int>(place);
+  uint64_t value = 0;
+  if (to_count(*json_, value) && value < size) return static_cast<int>(value);
   wrong("a whole number below " + std::to_string(size));
   return -1;
 }

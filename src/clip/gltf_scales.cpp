@@ -86,8 +86,8 @@ bool moves(const Clip& clip, size_t joint) {
 
 }  // namespace
 
-bool is_within_reach(Vec3 place) {
-  return std::ranges::all_of(std::array{place.x, place.y, place.z},
+bool is_within_reach(Vec3 position) {
+  return std::ranges::all_of(std::array{position.x, position.y, position.z},
                              [](float x) { return std::abs(x) <= kLargestNumber; });
 }
 
@@ -162,8 +162,9 @@ int fill_clip(const GltfDocument& document, GltfAnimation& animation,
   }
   for (Joint& joint : clip.skeleton.joints) joint.unkeyed = true;
   for (const GltfChannel& channel : animation.channels) {
-    const bool places = channel.path == GltfPath::rotation || channel.path == GltfPath::translation;
-    if (!places || channel.node < 0) continue;
+    const bool moves_joint =
+        channel.path == GltfPath::rotation || channel.path == GltfPath::translation;
+    if (!moves_joint || channel.node < 0) continue;
     const int joint = document.nodes[channel.node].joint;
     if (joint >= 0) clip.skeleton.joints[joint].unkeyed = false;
   }

@@ -48,6 +48,6 @@ int fill_clip(const GltfDocument& document, GltfAnimation& animation,
               std::span<const GltfTrack> tracks, GltfScales& scales);
 
 // Whether a clip may contain this position.
-bool is_within_reach(Vec3 place);
+bool is_within_reach(Vec3 position);
 
 }  // namespace panache

@@ -63,7 +63,7 @@ class SkeletonNodes {
 
   std::vector<FigureJoint> joints() const {
     std::vector<Affine> world(document_.nodes.size());
-    std::vector<int> place(document_.nodes.size(), -1);
+    std::vector<int> index(document_.nodes.size(), -1);
     const int tree = tree_of_skin();
     std::vector<FigureJoint> out;
     for (const size_t n : nodes_) {
@@ -71,10 +71,10 @@ class SkeletonNodes {
       const Affine local = local_matrix(document_, n);
       world[n] = node.parent < 0 ? local : world[node.parent] * local;
       if (!is_part(n) || root_[n] != tree) continue;
-      place[n] = static_cast<int>(out.size());
+      index[n] = static_cast<int>(out.size());
       FigureJoint joint{.node = n, .clip_joint = node.joint, .local = local, .world = world[n]};
       for (int up = node.parent; up >= 0 && joint.parent < 0;) {
-        joint.parent = place[up];
+        joint.parent = index[up];
         up = document_.nodes[up].parent;
       }
       out.push_back(joint);
@@ -129,7 +129,7 @@ class SkeletonNodes {
       if (joint.clip_joint < 0) continue;
       const int j = joint.clip_joint;
       joint.stretch = affine(conjugate(normalized(turns[j])), {}) * joint.world;
-      joint.stretch.place = {};
+      joint.stretch.origin = {};
       for (const GltfAnimation& animation : document_.animations) {
         joint.wanders = joint.wanders || wanders(animation.clip, j);
       }
@@ -198,13 +198,14 @@ std::string with_whole_skin(const GltfDocument& document) {
     return write_gltf_container(document.container, std::move(json), added);
   }
   const std::vector<FigureJoint> joints = SkeletonNodes(document, nullptr).joints();
-  std::map<size_t, size_t> places;  // Index in the skin, by node.
-  for (size_t i = 0; i < matrices.count; ++i) places.emplace(skin["joints"][i].get<size_t>(), i);
+  std::map<size_t, size_t> index_in_skin;  // Index in the skin, by node.
+  for (size_t i = 0; i < matrices.count; ++i)
+    index_in_skin.emplace(skin["joints"][i].get<size_t>(), i);
   std::vector<Affine> binds(joints.size());  // World transform in the mesh's unbent pose.
   for (size_t j = 0; j < joints.size(); ++j) {
-    const auto found = places.find(joints[j].node);
+    const auto found = index_in_skin.find(joints[j].node);
     const int parent = joints[j].parent;
-    if (found != places.end()) {
+    if (found != index_in_skin.end()) {
       const auto numbers = std::span(matrices.numbers).subspan(16 * found->second, 16);
       binds[j] = inverse(matrix_at(numbers));
     } else {
@@ -212,7 +213,7 @@ std::string with_whole_skin(const GltfDocument& document) {
     }
   }
   for (size_t j = 0; j < joints.size(); ++j) {
-    if (places.count(joints[j].node)) continue;
+    if (index_in_skin.count(joints[j].node)) continue;
     skin["joints"].push_back(joints[j].node);
     append_matrix(matrices.numbers, inverse(binds[j]));
   }

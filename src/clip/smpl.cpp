@@ -145,14 +145,14 @@ class SmplFile final : public MotionFile {
       return Error{name + ": expected an array " + array + ", as in AMASS, found " +
                    (names.empty() ? "none" : names)};
     }
-    const std::string place = name + ": " + array;
-    Result<NpyArray> read = parse_npy(member->bytes, place);
+    const std::string where = name + ": " + array;
+    Result<NpyArray> read = parse_npy(member->bytes, where);
     if (!read) return read.error();
     if (read->count() > 3 * kMaxPoses) {
-      return Error{place + ": expected at most " + std::to_string(3 * kMaxPoses) +
+      return Error{where + ": expected at most " + std::to_string(3 * kMaxPoses) +
                    " numbers, found " + std::to_string(read->count())};
     }
-    Result<std::vector<double>> numbers = npy_numbers(*read, place);
+    Result<std::vector<double>> numbers = npy_numbers(*read, where);
     if (!numbers) return numbers.error();
     return Table{read->type, read->shape, *std::move(numbers)};
   }
@@ -251,12 +251,12 @@ class SmplFile final : public MotionFile {
     Table out{trans_.type, {size_t(changed.frames), 3}, {}};
     for (int f = 0; f < changed.frames; ++f) {
       const int from = source(edit, f);
-      const Vec3 place = changed.pose(f).translations[0];
+      const Vec3 translation = changed.pose(f).translations[0];
       const double* old = from < 0 ? nullptr : &trans_.numbers[size_t(from) * 3];
-      if (old && clip_.pose(from).translations[0] == place) {
+      if (old && clip_.pose(from).translations[0] == translation) {
         out.numbers.insert(out.numbers.end(), old, old + 3);
       } else {
-        const Vec3d t = place.as<double>() - pelvis();
+        const Vec3d t = translation.as<double>() - pelvis();
         out.numbers.insert(out.numbers.end(), {t.x, t.y, t.z});
       }
     }

@@ -11,7 +11,7 @@ struct Line {
   std::string_view name;  // '*' stands for "left" or "right".
   std::string_view role;
   std::string_view parent;
-  Vec3 place;  // Left side, in the model's frame.
+  Vec3 position;  // Left side, in the model's frame.
 };
 
 // In the order of the models: for each '*', left before right.
@@ -81,9 +81,9 @@ class Builder {
  private:
   void add(const Line& line, std::string_view side, float sign) {
     const int parent = line.parent.empty() ? -1 : find(on_side(line.parent, side));
-    const Vec3 place = {sign * line.place.x, line.place.y, line.place.z};
-    const Vec3 above = parent < 0 ? Vec3{} : places_[parent];
-    add(on_side(line.name, side), on_side(line.role, side), parent, place - above);
+    const Vec3 position = {sign * line.position.x, line.position.y, line.position.z};
+    const Vec3 above = parent < 0 ? Vec3{} : positions_[parent];
+    add(on_side(line.name, side), on_side(line.role, side), parent, position - above);
   }
 
   void add(std::string name, std::string role, int parent, Vec3 offset) {
@@ -94,7 +94,7 @@ class Builder {
     joint.offset = offset;
     joint.can_rotate = true;
     joint.can_translate = parent < 0;
-    places_.push_back(parent < 0 ? offset : places_[parent] + offset);
+    positions_.push_back(parent < 0 ? offset : positions_[parent] + offset);
     out_.joints.push_back(std::move(joint));
   }
 
@@ -107,7 +107,7 @@ class Builder {
   }
 
   Skeleton out_;
-  std::vector<Vec3> places_;  // [joints]
+  std::vector<Vec3> positions_;  // [joints]
 };
 
 }  // namespace

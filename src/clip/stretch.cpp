@@ -45,7 +45,7 @@ bool Stretch::can_undo() const {
   return std::abs(determinant()) > kFlat * longest * longest * longest;
 }
 
-Vec3d Stretch::apply(Vec3d place) const { return even_ ? place * size_ : times(place); }
+Vec3d Stretch::apply(Vec3d position) const { return even_ ? position * size_ : times(position); }
 
 Vec3d Stretch::undo(Vec3d stretched) const {
   const Vec3d s = stretched;

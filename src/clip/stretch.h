@@ -34,8 +34,8 @@ class Stretch {
   // Whether the stretch can be inverted.
   bool can_undo() const;
 
-  Vec3d apply(Vec3d place) const;
-  Vec3 apply(Vec3 place) const { return apply(place.as<double>()).as<float>(); }
+  Vec3d apply(Vec3d position) const;
+  Vec3 apply(Vec3 position) const { return apply(position.as<double>()).as<float>(); }
   // The position that apply() maps to `stretched`; requires can_undo().
   Vec3d undo(Vec3d stretched) const;
   Vec3 undo(Vec3 stretched) const { return undo(stretched.as<double>()).as<float>(); }

@@ -14,9 +14,9 @@ class Straightener {
   explicit Straightener(const Clip& rest)
       : joints_(rest.skeleton.joints),
         rotations_(rest.joints()),
-        places_(rest.joints()),
+        positions_(rest.joints()),
         turns_(rest.joints()) {
-    world_pose(rest.skeleton, rest.pose(0), {rotations_, places_});
+    world_pose(rest.skeleton, rest.pose(0), {rotations_, positions_});
     for (size_t j = 0; j < joints_.size(); ++j) {
       if (!joints_[j].role.empty()) by_role_.emplace(joints_[j].role, j);
     }
@@ -32,7 +32,7 @@ class Straightener {
         offsets.push_back(joints_[j].offset);
       } else {
         const auto p = static_cast<size_t>(parent);
-        const Vec3 along = rotate(turns_[p], places_[j] - places_[p]);
+        const Vec3 along = rotate(turns_[p], positions_[j] - positions_[p]);
         offsets.push_back(turns_[p] == Quat{} ? joints_[j].offset
                                               : rotate(conjugate(rotations_[p]), along));
         turns_[j] = turns_[p];
@@ -47,12 +47,12 @@ class Straightener {
   std::optional<Vec3> between(const std::string& from, const std::string& to) const {
     const auto a = by_role_.find(from), b = by_role_.find(to);
     if (a == by_role_.end() || b == by_role_.end()) return std::nullopt;
-    return places_[b->second] - places_[a->second];
+    return positions_[b->second] - positions_[a->second];
   }
   std::optional<Vec3> between_first(const std::string& from,
                                     std::initializer_list<const char*> to) const {
     for (const char* role : to) {
-      if (const auto way = between(from, role)) return way;
+      if (const auto offset = between(from, role)) return offset;
     }
     return std::nullopt;
   }
@@ -91,9 +91,9 @@ class Straightener {
   void turn_limb(size_t joint, const std::string& side, const std::string& part) {
     const Vec3 out = {side == "left" ? 1.0f : -1.0f, 0, 0};
     const auto point = [&](const std::string& to, Vec3 wanted) {
-      const std::optional<Vec3> way = between(side + part, side + to);
-      if (!way || !(length(*way) > 1e-6f)) return;
-      const Vec3 now = normalized(rotate(turns_[joint], *way));
+      const std::optional<Vec3> offset = between(side + part, side + to);
+      if (!offset || !(length(*offset) > 1e-6f)) return;
+      const Vec3 now = normalized(rotate(turns_[joint], *offset));
       if (now == wanted) return;
       turns_[joint] = normalized(rotation_between(now, wanted) * turns_[joint]);
     };
@@ -107,9 +107,9 @@ class Straightener {
 
   // Turns the foot ahead and keeps its slope.
   void turn_foot(size_t joint, const std::string& side) {
-    const std::optional<Vec3> way = between(side + "Foot", side + "Toes");
-    if (!way) return;
-    const Vec3 now = rotate(turns_[joint], *way);
+    const std::optional<Vec3> offset = between(side + "Foot", side + "Toes");
+    if (!offset) return;
+    const Vec3 now = rotate(turns_[joint], *offset);
     const Vec3 level = {now.x, 0, now.z};
     if (!(length(level) > 0.1f * length(now)) || now.x == 0) return;
     turns_[joint] = normalized(rotation_between(normalized(level), {0, 0, 1}) * turns_[joint]);
@@ -117,7 +117,7 @@ class Straightener {
 
   const std::vector<Joint>& joints_;
   std::vector<Quat> rotations_;  // [joints] At rest, in the world.
-  std::vector<Vec3> places_;     // [joints] At rest, in the world.
+  std::vector<Vec3> positions_;  // [joints] At rest, in the world.
   std::vector<Quat> turns_;      // [joints] From the rest pose to the T-pose, in the world.
   std::map<std::string, size_t> by_role_;
 };

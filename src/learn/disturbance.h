@@ -25,10 +25,11 @@ struct Disturbed {
 };
 
 // `units`: for each pose feature in layout positions.
-Disturbed draw_disturbance(const Disturbance& how, const InputUnits& units, Random& random);
+Disturbed draw_disturbance(const Disturbance& disturbance, const InputUnits& units, Random& random);
 
 // Disturbs any number of poses in layout positions, in place. Does not apply the tempo: callers do
 // when they cut the window.
-void disturb(const Disturbed& draw, const Disturbance& how, Random& random, std::span<float> poses);
+void disturb(const Disturbed& draw, const Disturbance& disturbance, Random& random,
+             std::span<float> poses);
 
 }  // namespace panache

@@ -221,8 +221,8 @@ Parts limits_of(const ExcessOfTakes& excess) {
     const float usual = median(sizes);
     for (const float size : sizes) apart.push_back(std::abs(size - usual));
     // For a normal distribution, the deviation is 1.4826 times the median absolute deviation.
-    const float wide = usual + kDeviations * 1.4826f * median(std::move(apart));
-    limits[p] = std::clamp(wide, kMin[p], kAlways[p]);
+    const float bound = usual + kDeviations * 1.4826f * median(std::move(apart));
+    limits[p] = std::clamp(bound, kMin[p], kAlways[p]);
   }
   return limits;
 }
@@ -238,11 +238,12 @@ std::vector<float> scores_of(const std::vector<Excess>& frames, const Parts& lim
   return scores;
 }
 
-// From the peak forwards (`way` 1) or backwards (-1) to where it is quiet; nothing if it never is.
-std::optional<int> end_of(const std::vector<float>& scores, int peak, int way) {
+// From the peak forwards (`direction` 1) or backwards (-1) to where it is quiet; nothing if it
+// never is.
+std::optional<int> end_of(const std::vector<float>& scores, int peak, int direction) {
   const int end = static_cast<int>(scores.size()) - kEdge;
   int quietest = peak;
-  for (int f = peak; f >= kEdge && f < end && std::abs(f - peak) <= kLongest / 2; f += way) {
+  for (int f = peak; f >= kEdge && f < end && std::abs(f - peak) <= kLongest / 2; f += direction) {
     if (scores[f] > kStronger * scores[peak]) return {};
     if (scores[f] <= scores[quietest]) quietest = f;
     if (scores[f] < kQuiet * scores[peak]) break;
@@ -262,8 +263,8 @@ float usual_speed(const Take& take) {
 // Whether the body turns around, stops or starts, which is not a gesture.
 bool changes_course(const Take& take, int first, int last, float speed) {
   if (std::abs(take.root[last].facing - take.root[first].facing) > kMaxTurn) return true;
-  const float way = length(take.root[last].position - take.root[first].position);
-  const float pace = way * static_cast<float>(kTakeRate) / static_cast<float>(last - first);
+  const float distance = length(take.root[last].position - take.root[first].position);
+  const float pace = distance * static_cast<float>(kTakeRate) / static_cast<float>(last - first);
   return speed > kWalks && pace < kStops * speed;
 }
 

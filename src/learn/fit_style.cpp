@@ -170,9 +170,9 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
     }
     leverages.push_back(leverage);
   }
-  const auto place = static_cast<size_t>(kTrusted * (table.rows - 1));
-  std::nth_element(leverages.begin(), leverages.begin() + place, leverages.end());
-  const double limit = std::max(leverages[place], 1e-6);  // 0 for a single pose.
+  const auto rank = static_cast<size_t>(kTrusted * (table.rows - 1));
+  std::nth_element(leverages.begin(), leverages.begin() + rank, leverages.end());
+  const double limit = std::max(leverages[rank], 1e-6);  // 0 for a single pose.
   for (double& w : gate_weights) w /= limit;
 
   std::vector<double> weights(size * count);

@@ -52,10 +52,10 @@ std::vector<std::string> joint_paths(const std::vector<Joint>& joints, const Rig
 }
 
 // Joint indices by path; several joints of the same path are in file order.
-std::map<std::string, std::vector<size_t>> places_of(const std::vector<std::string>& paths) {
-  std::map<std::string, std::vector<size_t>> places;
-  for (size_t j = 0; j < paths.size(); ++j) places[paths[j]].push_back(j);
-  return places;
+std::map<std::string, std::vector<size_t>> joints_by_path(const std::vector<std::string>& paths) {
+  std::map<std::string, std::vector<size_t>> found;
+  for (size_t j = 0; j < paths.size(); ++j) found[paths[j]].push_back(j);
+  return found;
 }
 
 // For each joint of the neutral skeleton, the styled one's joint with the same path.
@@ -72,7 +72,7 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
         ErrorKind::other_skeletons};
   }
   const std::vector<std::string> paths = joint_paths(a, neutral.rig);
-  const auto before = places_of(paths), after = places_of(joint_paths(b, styled.rig));
+  const auto before = joints_by_path(paths), after = joints_by_path(joint_paths(b, styled.rig));
   std::vector<size_t> matches(a.size());
   for (size_t j = 0; j < a.size(); ++j) {
     const std::vector<size_t>& same = before.at(paths[j]);
@@ -138,7 +138,7 @@ Result<Take> take_onto(const LearnClip& styled, const LearnClip& neutral) {
   RigOptions as_neutral;
   as_neutral.metres_per_unit = neutral.rig.scale();
   as_neutral.up_axis = neutral.rig.up_axis();
-  for (int j = 0; j < kHumanJoints; ++j) as_neutral.joint_places[j] = neutral.rig.joints()[j];
+  for (int j = 0; j < kHumanJoints; ++j) as_neutral.joint_indices[j] = neutral.rig.joints()[j];
   Result<Rig> rig = Rig::create(done->clip, as_neutral);
   if (!rig) return located(styled.name + " onto " + neutral.name, rig.error());
   return take_of({done->clip, *rig, styled.name});

@@ -42,22 +42,22 @@ constexpr size_t kFirst = 3, kCount = 11;
 constexpr std::array<size_t, 11> kSpread = {0, 1, 2, 3, 5, 8, 11, 13, 14, 15, 16};
 constexpr float kTimeUnit = 3;
 
-struct Seen {
+struct WeightedJoint {
   HumanJoint joint;
   float weight;  // Highest for the legs: a style changes the steps least.
 };
-constexpr std::array<Seen, 12> kSeen = {{{chest, 0.5f},
-                                         {head, 0.5f},
-                                         {left_lower_arm, 0.35f},
-                                         {left_hand, 0.35f},
-                                         {right_lower_arm, 0.35f},
-                                         {right_hand, 0.35f},
-                                         {left_lower_leg, 1},
-                                         {left_foot, 1},
-                                         {left_toes, 1},
-                                         {right_lower_leg, 1},
-                                         {right_foot, 1},
-                                         {right_toes, 1}}};
+constexpr std::array<WeightedJoint, 12> kWeightedJoints = {{{chest, 0.5f},
+                                                            {head, 0.5f},
+                                                            {left_lower_arm, 0.35f},
+                                                            {left_hand, 0.35f},
+                                                            {right_lower_arm, 0.35f},
+                                                            {right_hand, 0.35f},
+                                                            {left_lower_leg, 1},
+                                                            {left_foot, 1},
+                                                            {left_toes, 1},
+                                                            {right_lower_leg, 1},
+                                                            {right_foot, 1},
+                                                            {right_toes, 1}}};
 constexpr std::array kAmplitudes = {left_lower_leg,  left_foot,      right_lower_leg,
                                     right_foot,      left_lower_arm, left_hand,
                                     right_lower_arm, right_hand,     head};
@@ -143,8 +143,8 @@ void write_moment(const Take& take, float frame, float tempo, std::span<float> o
   }
   for (int j = 0; j < kHumanJoints; ++j) {
     for (const size_t t : kSpread) {
-      const Vec3 way = bodies[t][j] - mean[j];
-      amplitude[j] += dot(way, way) * kShare;
+      const Vec3 offset = bodies[t][j] - mean[j];
+      amplitude[j] += dot(offset, offset) * kShare;
     }
     amplitude[j] = std::sqrt(amplitude[j]) + 0.05f;
   }
@@ -153,10 +153,10 @@ void write_moment(const Take& take, float frame, float tempo, std::span<float> o
   const auto put = [&](float value) { *number++ = value; };
   const float each = 1 / std::sqrt(static_cast<float>(kCount));
   for (size_t t = kFirst; t < kFirst + kCount; ++t) {
-    for (const auto& [joint, weight] : kSeen) {
+    for (const auto& [joint, weight] : kWeightedJoints) {
       const int j = index(joint);
-      const Vec3 way = (bodies[t][j] - mean[j]) * (weight * each / amplitude[j]);
-      put(way.x), put(way.y), put(way.z);
+      const Vec3 offset = (bodies[t][j] - mean[j]) * (weight * each / amplitude[j]);
+      put(offset.x), put(offset.y), put(offset.z);
     }
     put(bounded((bodies[t][0].y - mean[0].y) / 0.05f, 3) * each);
     constexpr std::array<float, kRootFeatures> kWeights = {0.5f, 0.35f, 0.35f};
@@ -168,7 +168,7 @@ void write_moment(const Take& take, float frame, float tempo, std::span<float> o
   for (int f = 0; f < kFeet; ++f) put(4 * planted[f]);
   for (const HumanJoint joint : kAmplitudes) put(0.6f * std::log(amplitude[index(joint)]));
   // Distinguishes sitting, lying and fighting from standing, whatever the style.
-  const auto coarse = [&](float way, float unit) { put(kCoarse * bounded(way / unit, 4)); };
+  const auto coarse = [&](float value, float unit) { put(kCoarse * bounded(value / unit, 4)); };
   const auto at = [&](HumanJoint joint) { return mean[index(joint)]; };
   coarse(at(hips).y, 0.15f);
   coarse(at(neck).x, 0.2f), coarse(at(neck).y - at(hips).y, 0.2f), coarse(at(neck).z, 0.3f);
@@ -238,15 +238,15 @@ void NeutralBank::project(std::span<const float> moment, std::span<float> out) c
 
 void NeutralBank::find(const Take& take, float frame, float tempo, std::span<Near> out) const {
   std::array<float, kMomentFeatures> moment;
-  std::array<float, kDirections> place;
+  std::array<float, kDirections> position;
   write_moment(take, frame, tempo, moment);
-  project(moment, place);
+  project(moment, position);
   std::fill(out.begin(), out.end(), Near{1e30f, 0});
   for (size_t p = 0; p < prototypes(); ++p) {
     const float* other = row(static_cast<int>(p));
     float distance = 0;
     for (int d = 0; d < kDirections; ++d) {
-      distance += (place[d] - other[d]) * (place[d] - other[d]);
+      distance += (position[d] - other[d]) * (position[d] - other[d]);
     }
     if (distance >= out.back().distance) continue;
     size_t at = out.size() - 1;

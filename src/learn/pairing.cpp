@@ -29,7 +29,7 @@ constexpr float kPenalty[4] = {1.15f, 1.0f, 1.1f, 1.3f};
 constexpr int kMaxWaits = 2;
 constexpr int kSmoothFrames = 7;
 // Smaller movements are ignored: 5 cm, 0.15 m/s.
-constexpr float kStillWay = 0.05f, kStillSpeed = 0.15f;
+constexpr float kStillDistance = 0.05f, kStillSpeed = 0.15f;
 constexpr float kFar = 1e30f;
 // Short windows always fit a little better. For takes in step they cost at least 0.75 of what long
 // ones do; for runs and backward walks that long ones align out of step, 0.14 to 0.68.
@@ -71,7 +71,7 @@ struct Group {
 // only that arm shows the phase of the action.
 float still(int number) {
   const bool speed = number + 1 < kNumbers && number % 6 >= 3;
-  return speed ? kStillSpeed / static_cast<float>(kTakeRate) : kStillWay;
+  return speed ? kStillSpeed / static_cast<float>(kTakeRate) : kStillDistance;
 }
 
 Group make_group(const std::vector<Take>& takes, std::vector<int> members) {
@@ -289,7 +289,7 @@ std::optional<double> step_agreement(const std::vector<Take>& takes,
         take.body[std::clamp(static_cast<int>(std::lround(frame)), 0, take.frames() - 1)];
     return double(body[index(HumanJoint::left_foot)].z - body[index(HumanJoint::right_foot)].z);
   };
-  double sum = 0, max = 0, neutral_way = 0, styled_way = 0, count = 0;
+  double sum = 0, max = 0, neutral_sum = 0, styled_sum = 0, count = 0;
   for (const Pairing& pairing : pairings) {
     for (size_t i = 0; i < pairing.neutral_frames.size(); ++i) {
       const double neutral = ahead(takes[pairing.neutral], pairing.neutral_frames[i]);
@@ -297,12 +297,12 @@ std::optional<double> step_agreement(const std::vector<Take>& takes,
           ahead(takes[pairing.styled], static_cast<float>(pairing.first + static_cast<int>(i)));
       sum += neutral * styled;
       max += std::abs(neutral * styled);
-      neutral_way += std::abs(neutral);
-      styled_way += std::abs(styled);
+      neutral_sum += std::abs(neutral);
+      styled_sum += std::abs(styled);
       ++count;
     }
   }
-  if (!(std::min(neutral_way, styled_way) > kFeetTogether * count)) return std::nullopt;
+  if (!(std::min(neutral_sum, styled_sum) > kFeetTogether * count)) return std::nullopt;
   return sum / max;
 }
 

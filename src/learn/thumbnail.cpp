@@ -17,10 +17,10 @@ constexpr float kAlong = 0.82f, kAcross = 0.57f;
 constexpr const char* kDark = "#1f5f8b";
 constexpr const char* kLight = "#8fb8d4";
 
-struct Place {
+struct Point {
   int x, y;
 };
-Place place(Vec3 joint, int figure) {
+Point point_of(Vec3 joint, int figure) {
   // Forward is to the right; the body's right side, -x, faces the viewer.
   const float right = joint.z * kAlong - joint.x * kAcross;
   return {kPictureWidth * figure + kPictureWidth / 2 + static_cast<int>(std::lround(100 * right)),
@@ -31,7 +31,7 @@ Place place(Vec3 joint, int figure) {
 std::string line(const HumanPositions& body, int figure, std::initializer_list<HumanJoint> joints) {
   std::string path;
   for (const HumanJoint joint : joints) {
-    const auto [x, y] = place(body[index(joint)], figure);
+    const auto [x, y] = point_of(body[index(joint)], figure);
     path += (path.empty() ? "M" : "L") + std::to_string(x) + " " + std::to_string(y);
   }
   return path;
@@ -42,7 +42,7 @@ std::string stroke(const std::string& path, const char* colour) {
 }
 
 std::string figure(const HumanPositions& body, int number) {
-  const auto [x, y] = place(body[index(head)], number);
+  const auto [x, y] = point_of(body[index(head)], number);
   return stroke(line(body, number, {left_shoulder, left_upper_arm, left_lower_arm, left_hand}) +
                     line(body, number, {left_upper_leg, left_lower_leg, left_foot, left_toes}),
                 kLight) +

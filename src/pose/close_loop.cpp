@@ -99,13 +99,13 @@ class LoopCloser {
     tilt_ = log_rotation(apart(in_heading(end), in_heading(begin)));
     rise_ = mid_hip(begin).y - mid_hip(end).y;
     turn_ = rotation_y(end.facing - begin.facing);
-    const Vec3 target = mid_hip(end) + Vec3{0, rise_, 0};
+    const Vec3 hips_target = mid_hip(end) + Vec3{0, rise_, 0};
     RotatedBodyPose from, to;
     reader_.read(clip_.pose(last), from);
     reader_.read(clip_.pose(first_), to);
     for (int foot = 0; foot < kFeet; ++foot) {
       const int ankle = index(kAnkles[foot]), toes = index(kToes[foot]);
-      const Vec3 wanted = target + rotate(turn_, to.joints[toes] - mid_hip(begin));
+      const Vec3 wanted = hips_target + rotate(turn_, to.joints[toes] - mid_hip(begin));
       toe_gaps_[foot] = wanted - from.joints[toes];
       foot_gaps_[foot] = log_rotation(apart(from.rotations[ankle], turn_ * to.rotations[ankle]));
     }
@@ -201,11 +201,11 @@ float Travel::turned(int round) const noexcept {
 }
 
 Vec3 Travel::position(int round) const noexcept {
-  Vec3 here = begin_.position;
+  Vec3 out = begin_.position;
   for (int r = 0; r < round; ++r) {
-    here += rotate(rotation_y(turned(r)), end_.position - begin_.position);
+    out += rotate(rotation_y(turned(r)), end_.position - begin_.position);
   }
-  return here;
+  return out;
 }
 
 Clip repeat_loop(const Clip& clip, const Rig& rig, int first, const Travel& travel, int rounds) {

@@ -36,20 +36,20 @@ inline constexpr Disturbance kUsualDisturbance = {.scale = 0.08f,
 // What a style learnt from one person must tolerate: the usual, and other people. Tuned on walks of
 // four performers with the style of a fifth.
 inline constexpr Disturbance kOtherPeople = [] {
-  Disturbance how = kUsualDisturbance;
-  how.torso = how.legs = 0.09f;
-  how.head = 0.14f;
-  how.arms = 0.21f;
-  how.amplitude = 0.3f;
-  return how;
+  Disturbance out = kUsualDisturbance;
+  out.torso = out.legs = 0.09f;
+  out.head = 0.14f;
+  out.arms = 0.21f;
+  out.amplitude = 0.3f;
+  return out;
 }();
 
 // The same at any tempo, from half of the usual to twice as fast: the tempo of a style is learnt as
 // that of its real takes, not as a ratio to one performer's neutral walk.
 inline constexpr Disturbance kOtherTempos = [] {
-  Disturbance how = kUsualDisturbance;
-  how.tempo = 0.25f;
-  return how;
+  Disturbance out = kUsualDisturbance;
+  out.tempo = 0.25f;
+  return out;
 }();
 
 struct BatchSettings {

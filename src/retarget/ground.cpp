@@ -29,8 +29,8 @@ float weight(float height) {
   return exponential(-far * far);
 }
 
-Vec3 toe_place(const BodyPose& body, const HumanPositions& joints, const BodyChange& change,
-               int foot) {
+Vec3 toe_position(const BodyPose& body, const HumanPositions& joints, const BodyChange& change,
+                  int foot) {
   return mid_hip(body) + change.translation + joints[index(kToes[foot])];
 }
 
@@ -147,7 +147,7 @@ void match_heights(const BodyPose& body, GroundedFrame& frame) noexcept {
   float sum = 0, weights = 0;
   for (int f = 0; f < kFeet; ++f) {
     const float share = kMinWeight + weight(frame.toes[f].y);
-    sum += share * (frame.toes[f].y - toe_place(body, joints, frame.change, f).y);
+    sum += share * (frame.toes[f].y - toe_position(body, joints, frame.change, f).y);
     weights += share;
   }
   frame.change.translation.y += sum / weights;
@@ -159,7 +159,7 @@ void hold_feet(const HeadingBody& body, float seconds, std::vector<GroundedFrame
     HumanPositions joints;
     changed_joints(body, frame.change, joints);
     for (int foot = 0; foot < kFeet; ++foot) {
-      toes[foot].push_back(toe_place(body, joints, frame.change, foot));
+      toes[foot].push_back(toe_position(body, joints, frame.change, foot));
     }
   }
   for (int foot = 0; foot < kFeet; ++foot) {

@@ -52,7 +52,7 @@ class MeanRotation {
   int count_ = 0;
 };
 
-Vec3 way(const HumanPositions& joints, int from, int to) {
+Vec3 direction(const HumanPositions& joints, int from, int to) {
   return normalized(joints[to] - joints[from]);
 }
 
@@ -62,7 +62,7 @@ float toes_height(const HumanPositions& joints) {
 
 // The heading of a foot, about +y; nothing if it points up or down.
 std::optional<float> foot_heading(const HumanPositions& joints, int foot) {
-  const Vec3 ahead = way(joints, index(kAnkles[foot]), index(kToes[foot]));
+  const Vec3 ahead = direction(joints, index(kAnkles[foot]), index(kToes[foot]));
   if (std::abs(ahead.y) > 0.95f) return std::nullopt;
   return arc_tangent(ahead.x, ahead.z);
 }
@@ -163,8 +163,8 @@ class Finder {
     float min = 1;
     for (int f = 0; f < kFeet; ++f) {
       const int upper = index(kUpperLegs[f]), lower = index(kLowerLegs[f]);
-      min = std::min({min, -way(rest_.joints, upper, lower).y,
-                      -way(rest_.joints, lower, index(kAnkles[f])).y});
+      min = std::min({min, -direction(rest_.joints, upper, lower).y,
+                      -direction(rest_.joints, lower, index(kAnkles[f])).y});
     }
     return min;
   }
@@ -172,8 +172,8 @@ class Finder {
   bool stands() const {
     if (torso().y < kUpright || steepest_leg() < kUprightLeg) return false;
     return std::all_of(kArms.begin(), kArms.end(), [&](const Arm& arm) {
-      const Vec3 upper = way(rest_.joints, arm.upper, arm.lower);
-      const Vec3 lower = way(rest_.joints, arm.lower, arm.hand);
+      const Vec3 upper = direction(rest_.joints, arm.upper, arm.lower);
+      const Vec3 lower = direction(rest_.joints, arm.lower, arm.hand);
       return dot(upper, lower) > kStraightArm && dot(upper, arm.along) > -0.3f && upper.y < 0.7f;
     });
   }
@@ -198,8 +198,8 @@ class Finder {
     out_.rotations[index(neck)] =
         rotation_between(torso.neck, {0, 1, 0}) * rest_.rotations[index(neck)];
     const auto limb = [&](int upper, int lower, int end, Vec3 along) {
-      const Quat first = rotation_between(way(rest_.joints, upper, lower), along);
-      const Vec3 rest = rotate(first, way(rest_.joints, lower, end));
+      const Quat first = rotation_between(direction(rest_.joints, upper, lower), along);
+      const Vec3 rest = rotate(first, direction(rest_.joints, lower, end));
       const Quat second = rotation_between(rest, along) * first;
       out_.rotations[upper] = first * rest_.rotations[upper];
       out_.rotations[lower] = second * rest_.rotations[lower];

@@ -38,7 +38,7 @@ Vec3 up_of(const Rig& rig) {
   return rotate(conjugate(turn_up(rig.up_axis()).value_or(Quat{})), Vec3{0, 1, 0});
 }
 
-Vec3 along_ground(Vec3 way, Vec3 up) { return way - up * dot(way, up); }
+Vec3 along_ground(Vec3 v, Vec3 up) { return v - up * dot(v, up); }
 
 // The character's root joint: above its hips, named so or with vertices of its own, on the floor
 // below them at rest; -1 if it has none.
@@ -128,18 +128,18 @@ class Retargeter {
     if (onto_reference_.from_rest || character_.frames < 2) return base;
     for (size_t j = 0; j < character_.joints(); ++j) {
       Quat sum = {0, 0, 0, 0};
-      Vec3d place;
+      Vec3d position;
       for (int f = onto_rig_.first_frame(); f < character_.frames; ++f) {
         const Quat q = character_.pose(f).rotations[j];
         const float sign = dot(sum, q) < 0 ? -1.0f : 1.0f;
         sum = {sum.x + sign * q.x, sum.y + sign * q.y, sum.z + sign * q.z, sum.w + sign * q.w};
-        place += character_.pose(f).translations[j].as<double>();
+        position += character_.pose(f).translations[j].as<double>();
       }
       const auto& human = onto_rig_.joints();
       if (std::find(human.begin(), human.end(), static_cast<int>(j)) != human.end()) continue;
       if (character_.skeleton.joints[j].parent < 0) continue;
       base.rotations[j] = normalized(sum);
-      base.translations[j] = (place / (character_.frames - onto_rig_.first_frame())).as<float>();
+      base.translations[j] = (position / (character_.frames - onto_rig_.first_frame())).as<float>();
     }
     return base;
   }

@@ -11,11 +11,11 @@ namespace panache {
 namespace {
 
 // The direction in which a hinge bends.
-struct BendWay {
+struct BendDirection {
   float off, along;  // The lower limb's components across and along the upper one.
   float wrong;       // 0 to 1.
 };
-BendWay bend_way(Vec3 upper, Vec3 lower, const Hinge& hinge) {
+BendDirection bend_direction(Vec3 upper, Vec3 lower, const Hinge& hinge) {
   const Vec3 to = rotate(rotation_between(Vec3{0, -1, 0}, upper), hinge.bends_to);
   const Vec3 bend = lower - upper * dot(upper, lower);
   const float off = length(bend);
@@ -25,9 +25,9 @@ BendWay bend_way(Vec3 upper, Vec3 lower, const Hinge& hinge) {
   return {off, dot(upper, lower), wrong};
 }
 
-Bend bend_of(const BendWay& way) {
-  const float angle = arc_tangent(way.off, way.along);
-  return {angle, angle * way.wrong};
+Bend bend_of(const BendDirection& direction) {
+  const float angle = arc_tangent(direction.off, direction.along);
+  return {angle, angle * direction.wrong};
 }
 
 }  // namespace
@@ -47,12 +47,12 @@ float swing_beyond(Vec3 direction, const Swings& swings) noexcept {
 }
 
 Bend bend_of(Vec3 upper, Vec3 lower, const Hinge& hinge) noexcept {
-  return bend_of(bend_way(upper, lower, hinge));
+  return bend_of(bend_direction(upper, lower, hinge));
 }
 
 Bend unsafe_bend_of(Vec3 upper, Vec3 lower, const Hinge& hinge) noexcept {
-  const BendWay way = bend_way(upper, lower, hinge);
-  return way.wrong == 0 && way.along > hinge.safe ? Bend{} : bend_of(way);
+  const BendDirection direction = bend_direction(upper, lower, hinge);
+  return direction.wrong == 0 && direction.along > hinge.safe ? Bend{} : bend_of(direction);
 }
 
 }  // namespace panache

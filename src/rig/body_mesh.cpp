@@ -47,7 +47,7 @@ class SurfaceNet {
 
  private:
   size_t at(int x, int y, int z) const { return (size_t(z) * ny_ + y) * nx_ + x; }
-  Vec3 place(float x, float y, float z) const { return low_ + Vec3{x, y, z} * cell_; }
+  Vec3 grid_point(float x, float y, float z) const { return low_ + Vec3{x, y, z} * cell_; }
 
   // If the middle of a block is further from the surface than its corners, one value suffices.
   void sample() {
@@ -56,7 +56,7 @@ class SurfaceNet {
     for (int z = 0; z < nz_; z += kBlock) {
       for (int y = 0; y < ny_; y += kBlock) {
         for (int x = 0; x < nx_; x += kBlock) {
-          const float middle = distance_(place(x + kHalf, y + kHalf, z + kHalf));
+          const float middle = distance_(grid_point(x + kHalf, y + kHalf, z + kHalf));
           fill(x, y, z, middle, std::abs(middle) > reach);
         }
       }
@@ -67,7 +67,7 @@ class SurfaceNet {
     for (int z = z0; z < std::min(z0 + kBlock, nz_); ++z) {
       for (int y = y0; y < std::min(y0 + kBlock, ny_); ++y) {
         for (int x = x0; x < std::min(x0 + kBlock, nx_); ++x) {
-          values_[at(x, y, z)] = far ? middle : distance_(place(x, y, z));
+          values_[at(x, y, z)] = far ? middle : distance_(grid_point(x, y, z));
         }
       }
     }
@@ -106,7 +106,7 @@ class SurfaceNet {
     }
     vertex_of_[at(x, y, z)] = static_cast<int>(out.vertices.size());
     const Vec3 mean = sum / static_cast<float>(cuts);
-    out.vertices.push_back(place(x + mean.x, y + mean.y, z + mean.z));
+    out.vertices.push_back(grid_point(x + mean.x, y + mean.y, z + mean.z));
   }
 
   // A quad around every edge that the surface cuts.

@@ -36,9 +36,9 @@ Vec3 scaled(Vec3 v, Vec3 by) { return {v.x * by.x, v.y * by.y, v.z * by.z}; }
 // A smooth curve through the values at even steps (Catmull and Rom, ends repeated).
 template <size_t kCount>
 float spline(const std::array<float, kCount>& values, float t) {
-  const float place = t * static_cast<float>(kCount - 1);
-  const size_t i = std::min(static_cast<size_t>(place), kCount - 2);
-  const float x = place - static_cast<float>(i);
+  const float position = t * static_cast<float>(kCount - 1);
+  const size_t i = std::min(static_cast<size_t>(position), kCount - 2);
+  const float x = position - static_cast<float>(i);
   const float a = values[i > 0 ? i - 1 : 0], b = values[i], c = values[i + 1];
   const float d = values[std::min(i + 2, kCount - 1)];
   return b + 0.5f * x * (c - a + x * (2 * a - 5 * b + 4 * c - d + x * (3 * (b - c) + d - a)));
@@ -102,17 +102,17 @@ void BodySurface::add(const Part& part) {
 // From mid-hip along the spine to the shoulders, with the width of the joints. The tubes meet end
 // to end, so that they fit any length of torso.
 void BodySurface::add_torso() {
-  const Vec3 left_hip = place(left_upper_leg), right_hip = place(right_upper_leg);
-  const Vec3 left_arm = place(left_upper_arm), right_arm = place(right_upper_arm);
+  const Vec3 left_hip = bind_position(left_upper_leg), right_hip = bind_position(right_upper_leg);
+  const Vec3 left_arm = bind_position(left_upper_arm), right_arm = bind_position(right_upper_arm);
   const Vec3 hip = (left_hip + right_hip) * 0.5f, top = (left_arm + right_arm) * 0.5f;
-  const float hips_wide = std::clamp(length(left_hip - right_hip) / 2, 0.06f, 0.14f);
-  const float arms_wide = std::clamp(length(left_arm - right_arm) / 2, 0.1f, 0.26f);
+  const float half_hips = std::clamp(length(left_hip - right_hip) / 2, 0.06f, 0.14f);
+  const float half_shoulders = std::clamp(length(left_arm - right_arm) / 2, 0.1f, 0.26f);
   const Vec3 low = hip + Vec3{0, 0.005f, -0.004f}, high = top + Vec3{0, -0.075f, -0.004f};
-  const float pelvis = 0.056f + hips_wide, rib = 0.036f + 0.64f * arms_wide;
+  const float pelvis = 0.056f + half_hips, rib = 0.036f + 0.64f * half_shoulders;
   Part tube{hips,
             kTorso,
-            low - place(hips),
-            high - place(hips),
+            low - bind_position(hips),
+            high - bind_position(hips),
             {pelvis, 0.97f * pelvis, 0.455f * (pelvis + rib), 0.985f * rib, 0.93f * rib}};
   tube.squeeze = {1, 1, 0.74f};
   tube.use = Use::shape;
@@ -121,7 +121,7 @@ void BodySurface::add_torso() {
   const Vec3 waist = lerp(low, high, 0.36f), ribs = lerp(low, high, 0.68f);
   const auto share = [&](HumanJoint joint, Vec3 from, Vec3 to) {
     const float radius = 0.7f * rib;
-    Part part{joint, kTorso, from - place(joint), to - place(joint), even(radius)};
+    Part part{joint, kTorso, from - bind_position(joint), to - bind_position(joint), even(radius)};
     part.use = Use::weights;
     add(part);
   };
@@ -132,27 +132,27 @@ void BodySurface::add_torso() {
   const Vec3 across = (left_arm - right_arm) * 0.5f;
   const Vec3 yoke = top + Vec3{0, -0.02f, -0.008f};
   const auto lump = [&](HumanJoint joint, Vec3 from, Vec3 to, float radius, float soft) {
-    add(joint, kTorso, from - place(joint), to - place(joint), even(radius), soft);
+    add(joint, kTorso, from - bind_position(joint), to - bind_position(joint), even(radius), soft);
   };
   lump(chest, yoke - across * 0.66f, yoke + across * 0.66f, 0.062f, 0.06f);
   for (const float side : {-1.0f, 1.0f}) {
     const Vec3 breast = lerp(ribs, top, 0.42f) + across * (side * 0.38f) + Vec3{0, 0, 0.026f};
     lump(chest, breast, breast + across * (side * 0.16f), 0.062f, 0.07f);
-    const Vec3 seat = hip + Vec3{side * 0.6f * hips_wide, -0.02f, -0.04f};
+    const Vec3 seat = hip + Vec3{side * 0.6f * half_hips, -0.02f, -0.04f};
     lump(hips, seat, seat + Vec3{0, 0.02f, 0}, 0.073f, 0.05f);
   }
 }
 
 // A neck, a skull and a face, on the existing joints.
 void BodySurface::add_head() {
-  const Vec3 top = (place(left_upper_arm) + place(right_upper_arm)) * 0.5f;
+  const Vec3 top = (bind_position(left_upper_arm) + bind_position(right_upper_arm)) * 0.5f;
   // A missing neck or head coincides with the joint above.
-  Vec3 base = place(neck), skull = place(head);
+  Vec3 base = bind_position(neck), skull = bind_position(head);
   if (!(skull.y > top.y + 0.02f)) skull = top + Vec3{0, 0.125f, 0.015f};
   if (!(base.y > top.y - 0.08f) || length(skull - base) < 0.02f) base = lerp(top, skull, 0.3f);
-  const Vec3 n = place(neck), h = skull - place(head);
-  add(chest, kHead, base + Vec3{0, -0.07f, -0.014f} - place(chest), base - place(chest),
-      {0.085f, 0.078f, 0.069f, 0.061f, 0.056f});
+  const Vec3 n = bind_position(neck), h = skull - bind_position(head);
+  add(chest, kHead, base + Vec3{0, -0.07f, -0.014f} - bind_position(chest),
+      base - bind_position(chest), {0.085f, 0.078f, 0.069f, 0.061f, 0.056f});
   add(neck, kHead, base - n, skull + Vec3{0, 0.03f, 0.002f} - n,
       {0.056f, 0.053f, 0.051f, 0.05f, 0.05f}, 0.012f);
   add(head, kHead, h + Vec3{0, 0.113f, -0.004f}, h + Vec3{0, 0.113f, -0.004f}, even(0.096f), 0.035f,
@@ -212,7 +212,7 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
   const float out = side == 0 ? 1.0f : -1.0f;
   const float thigh = length(offsets[index(lower)]);
   const float shin = length(offsets[index(foot)]);
-  const Vec3 left_hip = place(left_upper_leg), right_hip = place(right_upper_leg);
+  const Vec3 left_hip = bind_position(left_upper_leg), right_hip = bind_position(right_upper_leg);
   // Thighs closer than their thickness would merge.
   const float room = length(left_hip - right_hip) / 2;
   const float thick = std::clamp(room * 1.02f, 0.06f, 0.087f);
@@ -227,9 +227,9 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
   const float size = std::clamp(length(ball) / 0.12f, 0.75f, 1.3f);
   const float sole = ball.y;
   const auto shoe = [&](HumanJoint joint, Vec3 from, Vec3 to, const Radii& radii, float floor,
-                        float wide) {
+                        float width) {
     Part part{joint, group, from, to, radii, 0.02f};
-    part.squeeze = {wide, 0.95f, 1};
+    part.squeeze = {width, 0.95f, 1};
     part.sole = floor;
     add(part);
   };

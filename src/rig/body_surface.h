@@ -76,7 +76,7 @@ class BodySurface {
   void add_arm(const HumanPositions& offsets, int side);
   void add_leg(const HumanPositions& offsets, int side);
   float part_distance(const PlacedPart& placed, Vec3 point) const;
-  Vec3 place(HumanJoint joint) const { return bind_.positions[index(joint)]; }
+  Vec3 bind_position(HumanJoint joint) const { return bind_.positions[index(joint)]; }
   Vec3 to_joint(int joint, Vec3 point) const;
 
   BindPose bind_;

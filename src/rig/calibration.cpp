@@ -83,22 +83,22 @@ class Calibrator {
   // height of the head above the feet.
   void find_up() {
     const HumanJoint top = has(head) ? head : has(neck) ? neck : left_upper_arm;
-    std::vector<Vec3> ways;
+    std::vector<Vec3> directions;
     Vec3d sum;
     for (int f = 0; f < frames_.count(); ++f) {
-      ways.push_back(file(f, top) - (file(f, left_foot) + file(f, right_foot)) * 0.5f);
-      sum += ways.back().as<double>();
+      directions.push_back(file(f, top) - (file(f, left_foot) + file(f, right_foot)) * 0.5f);
+      sum += directions.back().as<double>();
     }
     const auto at_rest = [&](HumanJoint joint) {
       return rest_.translations[joint_of_[index(joint)]];
     };
     const Vec3 rest = at_rest(top) - (at_rest(left_foot) + at_rest(right_foot)) * 0.5f;
     const int k = main_axis(rest);
-    const auto upright = std::count_if(ways.begin(), ways.end(), [&](Vec3 way) {
-      return way[k] * std::copysign(1.0f, rest[k]) > kUpright * length(way);
+    const auto upright = std::count_if(directions.begin(), directions.end(), [&](Vec3 direction) {
+      return direction[k] * std::copysign(1.0f, rest[k]) > kUpright * length(direction);
     });
-    const Vec3 mean = (sum / double(ways.size())).as<float>();
-    const Vec3 up = upright >= kUprightShare * ways.size() ? rest : mean;
+    const Vec3 mean = (sum / double(directions.size())).as<float>();
+    const Vec3 up = upright >= kUprightShare * directions.size() ? rest : mean;
     out_.up_axis = {up[main_axis(up)] < 0 ? '-' : '+', "XYZ"[main_axis(up)]};
     out_.y_up = *turn_up(out_.up_axis);
     if (out_.up_axis != "+Y") out_.notes.push_back("up is " + out_.up_axis);
@@ -204,9 +204,9 @@ class Calibrator {
     for (int f = 0; f < frames_.count(); ++f) sum += length(file(f, a) - file(f, b));
     return sum / frames_.count() * out_.scale;
   }
-  void note_toe(int side, const std::string& how) {
+  void note_toe(int side, const std::string& source) {
     out_.notes.push_back(
-        (side ? "the right foot's direction is " : "the left foot's direction is ") + how);
+        (side ? "the right foot's direction is " : "the left foot's direction is ") + source);
   }
   // The frames in which the foot is lowest.
   void find_stance(HumanJoint foot) {

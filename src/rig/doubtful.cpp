@@ -94,20 +94,21 @@ struct Stance {
   float arms_legs = 0, trunk_arms = 0, trunk_legs = 0;
 };
 Stance stance_of(const JointPositions& at, const Mapping& mapping) {
-  const auto place = [&](HumanJoint human) { return at[mapping.joint_of[index(human)]]; };
+  const auto position = [&](HumanJoint human) { return at[mapping.joint_of[index(human)]]; };
   const auto cosine = [](Vec3 a, Vec3 b) {
     const float product = length(a) * length(b);
     return product > 0 ? dot(a, b) / product : 0.0f;
   };
-  const Vec3 trunk = place(left_upper_arm) + place(right_upper_arm) - place(left_upper_leg) -
-                     place(right_upper_leg);
+  const Vec3 trunk = position(left_upper_arm) + position(right_upper_arm) -
+                     position(left_upper_leg) - position(right_upper_leg);
   constexpr HumanJoint kLimbs[2][5] = {
       {left_upper_arm, left_lower_arm, left_hand, left_upper_leg, left_foot},
       {right_upper_arm, right_lower_arm, right_hand, right_upper_leg, right_foot}};
   Stance stance;
   for (const auto& [upper_arm, lower_arm, hand, upper_leg, foot] : kLimbs) {
     const HumanJoint end = mapping.joint_of[index(hand)] >= 0 ? hand : lower_arm;
-    const Vec3 arm = place(end) - place(upper_arm), leg = place(foot) - place(upper_leg);
+    const Vec3 arm = position(end) - position(upper_arm),
+               leg = position(foot) - position(upper_leg);
     stance.arms_legs += cosine(arm, leg) / 2;
     stance.trunk_arms += cosine(trunk, arm) / 2;
     stance.trunk_legs += cosine(trunk, leg) / 2;
@@ -115,9 +116,9 @@ Stance stance_of(const JointPositions& at, const Mapping& mapping) {
   return stance;
 }
 // Whether arms and legs are parallel, at right angles to the torso.
-bool is_on_four_legs(const Stance& stance, float same_way) {
+bool is_on_four_legs(const Stance& stance, float min_cosine) {
   constexpr float kAcross = 0.6f;
-  return stance.arms_legs > same_way && std::abs(stance.trunk_arms) < kAcross &&
+  return stance.arms_legs > min_cosine && std::abs(stance.trunk_arms) < kAcross &&
          std::abs(stance.trunk_legs) < kAcross;
 }
 

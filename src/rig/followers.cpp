@@ -20,9 +20,9 @@ constexpr float kMoves = 0.01f, kMovesTurn = 0.05f;
 
 // How much a joint moves in the space of another.
 struct Stray {
-  float place = 0, turn = 0;
-  bool keeps() const { return place < kKeeps && turn < kKeepsTurn; }
-  bool moves() const { return place > kMoves || turn > kMovesTurn; }
+  float shift = 0, turn = 0;
+  bool keeps() const { return shift < kKeeps && turn < kKeepsTurn; }
+  bool moves() const { return shift > kMoves || turn > kMovesTurn; }
 };
 
 float angle_between(Quat a, Quat b) { return length(log_rotation(conjugate(a) * b)); }
@@ -96,10 +96,10 @@ class FollowerFinder {
       const ConstPose world = frames_[f].world(0);
       const Quat axes = other < 0 ? Quat{} : conjugate(world.rotations[other]);
       const Vec3 origin = other < 0 ? Vec3{} : world.translations[other];
-      const Vec3 place = rotate(axes, world.translations[joint] - origin);
+      const Vec3 position = rotate(axes, world.translations[joint] - origin);
       const Quat turn = axes * world.rotations[joint];
-      if (f == 0) first = place, first_turn = turn;
-      stray.place = std::max(stray.place, length(place - first) / size_);
+      if (f == 0) first = position, first_turn = turn;
+      stray.shift = std::max(stray.shift, length(position - first) / size_);
       stray.turn = std::max(stray.turn, angle_between(first_turn, turn));
     }
     return stray;
@@ -135,7 +135,7 @@ class FollowerFinder {
   bool goes_with(int joint, int other, float distance, const Stray& now) const {
     if (stray_from(other, joint).keeps()) return true;
     // It turns by itself at the same place.
-    return distance < kKeeps && now.place > kMoves;
+    return distance < kKeeps && now.shift > kMoves;
   }
   // At the same place while neither moves. On the body, only a copy of the joint rests on it.
   bool rests_on(int joint, int other, int carried, float distance) const {

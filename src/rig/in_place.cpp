@@ -11,7 +11,7 @@ namespace {
 // The position of a joint and the rotation of its parent, from the joints above.
 struct Placed {
   Quatd above, turn;
-  Vec3d place;
+  Vec3d position;
 };
 
 // The hips and the joints above them, from the top.
@@ -28,7 +28,7 @@ std::vector<size_t> chain_to_hips(const Rig& rig, const Clip& clip) {
 Placed below(const Placed& parent, ConstPose pose, size_t joint) {
   const Quatd turn = parent.turn * pose.rotations[joint].as<double>();
   return {parent.turn, turn,
-          parent.place + rotate(parent.turn, pose.translations[joint].as<double>())};
+          parent.position + rotate(parent.turn, pose.translations[joint].as<double>())};
 }
 
 }  // namespace
@@ -45,8 +45,8 @@ void stay_in_place(const Rig& rig, Clip& clip) {
     for (size_t i = 0; i < chain.size(); ++i) {
       const size_t j = chain[i];
       Placed placed = below(parent, pose, j);
-      if (f == first) starts.push_back(placed.place);
-      Vec3d path = placed.place - starts[i];
+      if (f == first) starts.push_back(placed.position);
+      Vec3d path = placed.position - starts[i];
       path = path - up * dot(path, up);
       if (clip.skeleton.joints[j].can_translate && !(path == Vec3d{})) {
         const Vec3d local = rotate(conjugate(placed.above), path);

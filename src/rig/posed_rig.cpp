@@ -137,10 +137,10 @@ void PosedRig::write_translation(ConstPose in, const Deltas& deltas, const BodyC
   // The new rotation moves mid-hip about the hips; the hips compensate so that it stays.
   const Vec3 move = wanted - rotate_offset(delta_of(deltas, hips_joint), mid_hip - at(hips));
   if (move == Vec3{} || !is_finite(move)) return;
-  const auto add = [&](int joint, Vec3 way) {
+  const auto add = [&](int joint, Vec3 translation) {
     const int parent = shared.skeleton.joints[joint].parent;
     const Quat world = parent < 0 ? Quat{} : world_rotations_[parent];
-    out.translations[joint] += rotate(conjugate(world), way);
+    out.translations[joint] += rotate(conjugate(world), translation);
   };
   if (ground_joint_ < 0) return add(shared.moved_joint, move);
   const Vec3 up = rotate(conjugate(shared.calibration.y_up), Vec3{0, 1, 0});

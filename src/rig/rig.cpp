@@ -56,9 +56,9 @@ using enum HumanJoint;
 // Finds the joints given in the options, among those of the figure (null: all).
 Result<KnownJoints> find_joints(const Skeleton& skeleton, const RigOptions& options,
                                 const JointSubset* figure) {
-  KnownJoints known = options.joint_places;
+  KnownJoints known = options.joint_indices;
   for (const auto& [human, name] : options.joints) {
-    if (options.joint_places.contains(human)) continue;
+    if (options.joint_indices.contains(human)) continue;
     int& found = known[human] = -1;
     if (name.empty()) continue;
     for (size_t j = 0; j < skeleton.joints.size(); ++j) {
@@ -84,7 +84,7 @@ int count_given(const Skeleton& skeleton, const RigOptions& options, const Joint
   int count = 0;
   for (const int joint : figure.original) {
     for (const auto& [human, name] : options.joints) count += skeleton.joints[joint].name == name;
-    for (const auto& [human, given] : options.joint_places) count += given == joint;
+    for (const auto& [human, given] : options.joint_indices) count += given == joint;
   }
   return count;
 }
@@ -333,11 +333,11 @@ void Rig::transform_root(float turn, Vec3 about, Vec3 move, Pose pose) const noe
   const Quat file_axes = conjugate(shared_->calibration.y_up);
   const Quat by = in_axes(file_axes, rotation_y(turn));
   const Vec3 centre = rotate(file_axes, about) / shared_->calibration.scale;
-  const Vec3 way = rotate(file_axes, move) / shared_->calibration.scale;
+  const Vec3 translation = rotate(file_axes, move) / shared_->calibration.scale;
   for (size_t j = 0; j < shared_->skeleton.joints.size(); ++j) {
     if (shared_->skeleton.joints[j].parent >= 0) continue;
     pose.rotations[j] = by * pose.rotations[j];
-    pose.translations[j] += rotate_offset(by, pose.translations[j] - centre) + way;
+    pose.translations[j] += rotate_offset(by, pose.translations[j] - centre) + translation;
   }
 }
 

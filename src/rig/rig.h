@@ -36,7 +36,7 @@ struct RigOptions {
   std::map<int, std::string> joints;
   // The same by joint index, -1: the skeleton has none; for names that are not unique. Takes
   // precedence over a name.
-  KnownJoints joint_places;
+  KnownJoints joint_indices;
   // The figure, of several in the skeleton, by its name in find_figures(); empty: the one that has
   // the given joints, or that the clip moves.
   std::string figure;

@@ -31,9 +31,9 @@ std::vector<std::vector<Vec3>> some_poses(const Clip& clip) {
   std::vector<std::vector<Vec3>> poses;
   const auto add = [&](ConstPose pose) {
     world_pose(clip.skeleton, pose, world.pose(0));
-    const std::vector<Vec3>& places = world.translations;
-    if (std::all_of(places.begin(), places.end(), [](Vec3 p) { return is_finite(p); }))
-      poses.push_back(places);
+    const std::vector<Vec3>& positions = world.translations;
+    if (std::all_of(positions.begin(), positions.end(), [](Vec3 p) { return is_finite(p); }))
+      poses.push_back(positions);
   };
   add(world.pose(0));
   const int count = std::min(kMax, clip.frames);

@@ -116,9 +116,9 @@ void Drive::tick(const WalkerModel& model, float wanted_speed, float wanted_turn
   const double half = heading_ + double(going_.turn * dt) / 2;
   heading_ += going_.turn * dt;
   // The body faces ahead along the turning path.
-  const double way = half - going_.turn * model.walk().gaze_lead * amount_;
-  x_ += std::sin(way) * double(going_.speed * dt);
-  z_ += std::cos(way) * double(going_.speed * dt);
+  const double direction = half - going_.turn * model.walk().gaze_lead * amount_;
+  x_ += std::sin(direction) * double(going_.speed * dt);
+  z_ += std::cos(direction) * double(going_.speed * dt);
 }
 
 void Drive::channels(const WalkerModel& model, Channels& out) const noexcept {

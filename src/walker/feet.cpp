@@ -41,16 +41,16 @@ float wrapped(float angle) {
 // Bends the leg so that its ankle reaches `ankle`; returns by how much the hip is too high.
 float reach_for(Vec3 ankle, Leg& leg) {
   const float max = kMaxReach * (length(leg.knee - leg.hip) + length(leg.ankle - leg.knee));
-  const Vec3 way = ankle - leg.hip;
-  const float reach = soft_reach(length(way), length(leg.ankle - leg.hip), max);
+  const Vec3 to_ankle = ankle - leg.hip;
+  const float reach = soft_reach(length(to_ankle), length(leg.ankle - leg.hip), max);
   const Vec3 knee_ahead = rotate(leg.lower, Vec3{0, 0, 1});
   const TwoBoneTurn turn =
-      two_bone_ik(leg.hip, leg.knee, leg.ankle, leg.hip + normalized(way) * reach,
+      two_bone_ik(leg.hip, leg.knee, leg.ankle, leg.hip + normalized(to_ankle) * reach,
                   bend_of(leg.hip, leg.knee, leg.ankle, knee_ahead));
   leg.upper = turn.upper * leg.upper;
   leg.lower = turn.lower * leg.lower;
-  const float level = way.x * way.x + way.z * way.z;
-  return max * max > level ? -way.y - std::sqrt(max * max - level) : 0.0f;
+  const float level = to_ankle.x * to_ankle.x + to_ankle.z * to_ankle.z;
+  return max * max > level ? -to_ankle.y - std::sqrt(max * max - level) : 0.0f;
 }
 
 }  // namespace
@@ -72,9 +72,9 @@ void Feet::hold(Foot& foot, const Stepping& now, Vec3 toe, float yaw) noexcept {
   foot.yaw = yaw;
   if (now.swing > 0 && !foot.lifted) {
     foot.lifted = true;
-    const float way =
+    const float path =
         length(foot.offset) + 0.2f * std::abs(foot.twist) + 0.2f * std::abs(now.lead) + now.amount;
-    foot.lift = kStepLift * (1 - now.amount) * std::min(1.0f, way / 0.08f);
+    foot.lift = kStepLift * (1 - now.amount) * std::min(1.0f, path / 0.08f);
   }
   if (now.swing <= 0) foot.lifted = false;
 }

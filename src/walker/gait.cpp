@@ -33,12 +33,12 @@ const std::array<Vec3, 4>& left_leg() {
   return offsets;
 }
 
-int place_of(HumanJoint joint) {
+int slot_of(HumanJoint joint) {
   return static_cast<int>(std::find(kDriven.begin(), kDriven.end(), joint) - kDriven.begin());
 }
 
 Quat rotation_of(const Channels& channels, HumanJoint joint) {
-  const float* r = &channels[3 + 3 * place_of(joint)];
+  const float* r = &channels[3 + 3 * slot_of(joint)];
   return exp_rotation(Vec3{r[0], r[1], r[2]});
 }
 
@@ -65,7 +65,7 @@ Channels mirrored(const Channels& channels) noexcept {
   out[2] = channels[2];
   for (size_t i = 0; i < kDriven.size(); ++i) {
     const auto other = static_cast<HumanJoint>(kHumanMirror[index(kDriven[i])]);
-    const float* from = &channels[3 + 3 * place_of(other)];
+    const float* from = &channels[3 + 3 * slot_of(other)];
     float* to = &out[3 + 3 * i];
     to[0] = from[0];
     to[1] = -from[1];
@@ -118,7 +118,7 @@ float cadence(const Gait& gait, float speed) noexcept {
          std::pow(std::max(speed, 1e-3f) / learnt, kFreeExponent);
 }
 
-float way_over_foot(const Gait& gait, float speed) {
+float distance_over_foot(const Gait& gait, float speed) {
   constexpr float kFrom = 0.2f, kTo = 0.8f;  // Of the stance: the whole sole is down.
   const float stance = gait.lifts[0] - gait.lands[0];
   const auto toe_ahead = [&](float share) {

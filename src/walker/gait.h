@@ -68,6 +68,6 @@ void evaluate(const Gait& gait, float phase, const Going& going, Channels& out) 
 float cadence(const Gait& gait, float speed) noexcept;
 // How far the body would move over its standing foot in a cycle, metres, if all of it were like the
 // middle of the stance; at `speed`, without turning.
-float way_over_foot(const Gait& gait, float speed);
+float distance_over_foot(const Gait& gait, float speed);
 
 }  // namespace panache

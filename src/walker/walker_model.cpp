@@ -96,10 +96,11 @@ WalkerModel::Strides WalkerModel::find_strides(const Gait& gait) {
     float a = low, b = high;
     while (b - a > 1e-4f) {
       const float middle = (a + b) / 2;
-      (way_over_foot(gait, middle) < wanted ? a : b) = middle;
+      (distance_over_foot(gait, middle) < wanted ? a : b) = middle;
     }
     strides[i].speed = a;
-    strides[i].amount = std::clamp(wanted / std::max(way_over_foot(gait, a), 0.01f), 0.0f, 1.0f);
+    strides[i].amount =
+        std::clamp(wanted / std::max(distance_over_foot(gait, a), 0.01f), 0.0f, 1.0f);
   }
   return strides;
 }

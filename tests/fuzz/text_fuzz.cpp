@@ -28,8 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       if (!messages) return 0;
       for (const cli::VmcMessage& message : *messages) {
         if (message.kind != cli::VmcMessage::bone) continue;
-        cli::put_position(datagram, message.place, message.position);
-        cli::put_rotation(datagram, message.place, message.rotation);
+        cli::put_position(datagram, message.offset, message.position);
+        cli::put_rotation(datagram, message.offset, message.rotation);
       }
       if (!cli::read_vmc(datagram)) fuzz::fail("what was changed in place cannot be read");
 #endif

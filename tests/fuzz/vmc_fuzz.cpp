@@ -114,7 +114,7 @@ class Sender {
     if (!messages) fuzz::fail("what came back is no VMC");
     for (const cli::VmcMessage& message : *messages) {
       if (message.kind == cli::VmcMessage::bone) {
-        std::fill_n(bytes.begin() + static_cast<ptrdiff_t>(message.place), 28, '\0');
+        std::fill_n(bytes.begin() + static_cast<ptrdiff_t>(message.offset), 28, '\0');
       }
     }
     return bytes;

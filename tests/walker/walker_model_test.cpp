@@ -97,7 +97,8 @@ TEST(WalkerModel, strides_match_the_speed) {
     const Stride stride = model.walk_stride(speed);
     const float cycle = speed / cadence(model.walk(), speed);
     // The table is read between entries 0.1 m/s apart.
-    EXPECT_NEAR(stride.amount * way_over_foot(model.walk(), stride.speed), cycle, 0.01f * cycle);
+    EXPECT_NEAR(stride.amount * distance_over_foot(model.walk(), stride.speed), cycle,
+                0.01f * cycle);
   }
   EXPECT_EQ(model.walk_stride(0).amount, 0);
 }

@@ -25,8 +25,8 @@ PartFile::~PartFile() {
 // Others cannot open a file that is not shared.
 int PartFile::create(const std::string& name) {
   int file = -1;
-  constexpr int kHow = _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY | _O_NOINHERIT;
-  errno = ::_sopen_s(&file, name.c_str(), kHow, _SH_DENYRW, _S_IREAD | _S_IWRITE);
+  constexpr int kMode = _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY | _O_NOINHERIT;
+  errno = ::_sopen_s(&file, name.c_str(), kMode, _SH_DENYRW, _S_IREAD | _S_IWRITE);
   return file;
 }
 
