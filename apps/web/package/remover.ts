@@ -31,7 +31,7 @@ export class Remover {
     this.#panache = panache;
     this.#remover = createModel(panache._module, bytes, 'the remover');
     this.styles = stylesOf(panache._module, this.#remover);
-    if (infoOf(panache._module, this.#remover, 0).takesOff) return;
+    if (this.styles.length && infoOf(panache._module, this.#remover, 0).takesOff) return;
     this.free();
     throw new PanacheError('the remover: the model puts styles on; expected one that takes them off');
   }
