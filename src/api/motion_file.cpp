@@ -6,7 +6,7 @@
 #include "api/poses.h"
 #include "base/text.h"
 #include "clip/motion_format.h"
-#include "pose/motion_notes.h"
+#include "pose/step_rate.h"
 #include "retarget/retarget.h"
 #include "rig/body_motions.h"
 

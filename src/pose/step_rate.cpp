@@ -7,6 +7,7 @@
 
 #include "clip/motion_file.h"
 #include "pose/contacts.h"
+#include "rig/body_motions.h"
 #include "rig/posed_rig.h"
 
 namespace panache {
@@ -306,6 +307,24 @@ std::optional<std::string> doubtful_rate(const Clip& clip, const Rig& rig) {
          brief(a_second) + " a second, too " + (many ? "fast" : "slow") +
          " to keep balance; if it was not recorded at " + brief(1 / clip.frame_time) +
          " frames a second, " + kGiveRate;
+}
+
+std::vector<std::string> motion_notes(const MotionFile& file, const std::string& path) {
+  std::vector<std::string> notes = file.notes();
+  const std::vector<std::string> names = file.clip_names();
+  const BodyMotions body = find_body_motions(file);
+  if (const std::string note = note_passed_over(file, body); !note.empty()) {
+    notes.push_back(path + ": " + note);
+  }
+  for (const int clip : body.clips) {
+    const std::string& name = names[static_cast<size_t>(clip)];
+    const Result<Rig> rig = Rig::create(file.clip(clip));
+    if (!rig) continue;  // The caller gets this error with that skeleton.
+    if (const auto doubt = doubtful_rate(file.clip(clip), *rig)) {
+      notes.push_back(path + ": " + (name.empty() ? "" : name + ": ") + *doubt);
+    }
+  }
+  return notes;
 }
 
 }  // namespace panache
