@@ -31,15 +31,14 @@ struct Run {
 };
 Result<Run> run_jobs(const System& system, const std::vector<TestInput>& inputs,
                      const std::vector<Job>& jobs) {
-  std::vector<std::optional<Result<RunResult>>> run_result(jobs.size());
-  parallel_for(static_cast<int>(jobs.size()),
-               [&](int i) { run_result[i] = system.run(inputs[jobs[i].input], jobs[i].request); });
+  auto results = parallel_results<RunResult>(
+      jobs.size(), [&](int i) { return system.run(inputs[jobs[i].input], jobs[i].request); });
+  if (!results) return results.error();
   Run run;
   for (size_t i = 0; i < jobs.size(); ++i) {
-    Result<RunResult>& one = *run_result[i];
-    if (!one) return one.error();
-    run.bone_length_error = std::max(run.bone_length_error, one->bone_length_error);
-    run.outputs.push_back(std::move((*one).output));
+    RunResult& one = (*results)[i];
+    run.bone_length_error = std::max(run.bone_length_error, one.bone_length_error);
+    run.outputs.push_back(std::move(one.output));
     run.outputs.back().input = jobs[i].input;
   }
   return run;

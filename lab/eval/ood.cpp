@@ -216,20 +216,13 @@ Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, c
       if (system.can_run(input, request)) jobs.emplace_back(&input, request);
     }
   }
-  const int count = static_cast<int>(jobs.size());
-  std::vector<std::optional<Result<OodRow>>> rows(jobs.size());
   std::atomic<int> done = 0;
-  parallel_for(count, [&](int job) {
-    rows[job] = style_input(system, *jobs[job].first, jobs[job].second, judge);
+  return parallel_results<OodRow>(jobs.size(), [&](int job) {
+    Result<OodRow> row = style_input(system, *jobs[job].first, jobs[job].second, judge);
     const int finished = ++done;
-    if (progress) progress(static_cast<double>(finished) / count);
+    if (progress) progress(static_cast<double>(finished) / static_cast<double>(jobs.size()));
+    return row;
   });
-  std::vector<OodRow> out;
-  for (std::optional<Result<OodRow>>& row : rows) {
-    if (!*row) return row->error();
-    out.push_back(std::move(*row).value());
-  }
-  return out;
 }
 
 Result<std::vector<std::string>> list_ood(const std::string& path) {

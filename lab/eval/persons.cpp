@@ -155,15 +155,10 @@ Result<SeedPersons> PersonsMeasure::measure(const std::shared_ptr<const Model>& 
                                             float variety) const {
   torch::NoGradGuard no_gradients;
   const int walks = static_cast<int>(walks_.size());
-  std::vector<std::optional<Result<Take>>> played(static_cast<size_t>(seeds * walks));
-  parallel_for(seeds * walks, [&](int i) {
-    played[i] = play_person(walks_[i % walks], model, 1 + i / walks, variety);
+  const auto takes = parallel_results<Take>(static_cast<size_t>(seeds * walks), [&](int i) {
+    return play_person(walks_[i % walks], model, 1 + i / walks, variety);
   });
-  std::vector<Take> takes;
-  for (std::optional<Result<Take>>& one : played) {
-    if (!*one) return one->error();
-    takes.push_back(std::move(*one).value());
-  }
+  if (!takes) return takes.error();
   SeedPersons out;
   out.seeds = static_cast<size_t>(seeds);
   out.walks = static_cast<size_t>(walks);
@@ -181,7 +176,7 @@ Result<SeedPersons> PersonsMeasure::measure(const std::shared_ptr<const Model>& 
     std::vector<torch::Tensor> shifts;
     for (int s = 0; s < seeds; ++s) {
       for (int other = 0; other < walks; ++other) {
-        const Take& take = takes[static_cast<size_t>(s * walks + other)];
+        const Take& take = (*takes)[static_cast<size_t>(s * walks + other)];
         (other == w ? test : training).push_back(take);
         (other == w ? expected : labels).push_back(std::to_string(s));
         if (other == w) poses.push_back(mean_pose(take.body));
@@ -246,27 +241,17 @@ Result<std::vector<double>> measure_retelling(const std::shared_ptr<const Model>
 Result<std::vector<OodRow>> measure_persons_on(const std::vector<TestInput>& inputs,
                                                const std::shared_ptr<const Model>& model, int seeds,
                                                float variety) {
-  const int count = static_cast<int>(inputs.size()) * seeds;
-  std::vector<std::optional<Result<OodRow>>> rows(static_cast<size_t>(count));
-  parallel_for(count, [&](int i) {
+  const size_t count = inputs.size() * static_cast<size_t>(seeds);
+  return parallel_results<OodRow>(count, [&](int i) -> Result<OodRow> {
     const TestInput& input = inputs[static_cast<size_t>(i / seeds)];
     const int seed = 1 + i % seeds;
     const Result<Take> take = play_person(input, model, seed, variety);
-    if (!take) {
-      rows[i] = Result<OodRow>(take.error());
-      return;
-    }
+    if (!take) return take.error();
     OodRow row = compare_ood(input.take, *take);
     row.clip = std::filesystem::path(input.take.row.path).stem().string();
     row.style = std::to_string(seed);
-    rows[i] = Result<OodRow>(std::move(row));
+    return row;
   });
-  std::vector<OodRow> out;
-  for (std::optional<Result<OodRow>>& row : rows) {
-    if (!*row) return row->error();
-    out.push_back(std::move(*row).value());
-  }
-  return out;
 }
 
 ChangeSummary summarize_changes(const std::vector<OodRow>& rows) {
@@ -304,15 +289,14 @@ Result<StyledPersons> measure_styled_persons(const std::vector<TestInput>& neutr
       }
     }
   }
-  std::vector<std::optional<Result<Take>>> played(jobs.size());
-  parallel_for(static_cast<int>(jobs.size()), [&](int i) {
+  auto played = parallel_results<Take>(jobs.size(), [&](int i) {
     const Job& job = jobs[static_cast<size_t>(i)];
-    played[i] = play_person(neutral[job.input], model, job.seed, 1, job.index);
+    return play_person(neutral[job.input], model, job.seed, 1, job.index);
   });
+  if (!played) return played.error();
   std::vector<Take> with, without;
   for (size_t i = 0; i < jobs.size(); ++i) {
-    if (!*played[i]) return played[i]->error();
-    Take& take = (jobs[i].seed < 0 ? without : with).emplace_back(std::move(*played[i]).value());
+    Take& take = (jobs[i].seed < 0 ? without : with).emplace_back(std::move((*played)[i]));
     take.row.style = jobs[i].style;
     take.row.neutral = false;
   }

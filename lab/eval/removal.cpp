@@ -59,15 +59,14 @@ Result<Take> remove_from(const TestInput& input, const std::shared_ptr<const Mod
 Result<RemovalSummary> remove_own(const std::shared_ptr<const Model>& remover, bool named,
                                   const TestSet& test_set) {
   std::vector<Take> before, after;
-  std::vector<std::optional<Result<Take>>> outputs(test_set.styled.size());
-  parallel_for(static_cast<int>(outputs.size()), [&](int i) {
+  const auto outputs = parallel_results<Take>(test_set.styled.size(), [&](int i) {
     const TestInput& input = test_set.styled[i];
-    outputs[i] = remove_from(input, remover, named ? input.take.row.style : "", true);
+    return remove_from(input, remover, named ? input.take.row.style : "", true);
   });
+  if (!outputs) return outputs.error();
   std::vector<Change> clips;
-  for (size_t i = 0; i < outputs.size(); ++i) {
-    if (!*outputs[i]) return outputs[i]->error();
-    Take input = test_set.styled[i].take, output = **outputs[i];
+  for (size_t i = 0; i < outputs->size(); ++i) {
+    Take input = test_set.styled[i].take, output = (*outputs)[i];
     input.row.style = output.row.style = "neutral";
     // Performers without neutral takes have no classifier for it.
     const auto was = test_set.performers.judge({input}), is = test_set.performers.judge({output});

@@ -1,10 +1,6 @@
 #include "eval/test_input.h"
 
-#include <optional>
-
 #include "base/parallel.h"
-#include "clip/motion_file.h"
-#include "rig/body_motions.h"
 
 namespace panache {
 
@@ -13,25 +9,15 @@ double TestInput::take_frame(double clip_frame) const {
 }
 
 Result<TestInput> load_input(const ManifestRow& row) {
-  Result<std::unique_ptr<MotionFile>> file = read_motion(row.path);
-  if (!file) return file.error();
-  const Clip& clip = (*file)->clip(first_body_motion(**file));
-  Result<Rig> rig = Rig::create(clip);
-  if (!rig) return located(row.path, rig.error());
-  Take take = make_take(clip, *rig, PoseLayout::positions);
+  Result<RiggedClip> from = load_clip(row.path);
+  if (!from) return from.error();
+  Take take = make_take(from->clip, from->rig, PoseLayout::positions);
   take.row = row;
-  return TestInput{clip, *std::move(rig), std::move(take)};
+  return TestInput{std::move(from->clip), std::move(from->rig), std::move(take)};
 }
 
 Result<std::vector<TestInput>> load_inputs(const std::vector<ManifestRow>& rows) {
-  std::vector<std::optional<Result<TestInput>>> read(rows.size());
-  parallel_for(static_cast<int>(rows.size()), [&](int i) { read[i] = load_input(rows[i]); });
-  std::vector<TestInput> inputs;
-  for (std::optional<Result<TestInput>>& input : read) {
-    if (!*input) return input->error();
-    inputs.push_back(std::move(*input).value());
-  }
-  return inputs;
+  return parallel_results<TestInput>(rows.size(), [&](int i) { return load_input(rows[i]); });
 }
 
 }  // namespace panache

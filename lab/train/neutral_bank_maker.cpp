@@ -90,14 +90,14 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
         numbers.try_emplace(person_of(take), static_cast<int>(numbers.size())).first->second);
   }
   Random random(seed);
-  const std::vector<Moment> chosen = draw_moments(takes, people, random);
+  const std::vector<Moment> picked = draw_moments(takes, people, random);
   std::vector<Take> exchanged;
   for (const Take& take : takes) exchanged.push_back(mirror_take(take));
   const int64_t count = 2 * kMoments;
   torch::Tensor moments = torch::empty({count, kMomentFeatures});
   std::vector<int> person(count);
   parallel_for(static_cast<int>(count), [&](int i) {
-    const Moment& at = chosen[i % kMoments];
+    const Moment& at = picked[i % kMoments];
     const Take& take = (i < kMoments ? takes : exchanged)[at.take];
     write_moment(take, static_cast<float>(at.frame), 1,
                  {moments.data_ptr<float>() + int64_t{i} * kMomentFeatures, kMomentFeatures});
@@ -121,7 +121,7 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
   }());
   // Moments are drawn at random; that of a person may fit best a few frames earlier or later.
   const auto refine = [&](int64_t moment, const torch::Tensor& wanted) {
-    const Moment& at = chosen[moment % kMoments];
+    const Moment& at = picked[moment % kMoments];
     const Take& take = (moment < kMoments ? takes : exchanged)[at.take];
     const int first = std::max(0, at.frame - kPhaseFrames);
     const int last = std::min(take.frames() - 1, at.frame + kPhaseFrames);

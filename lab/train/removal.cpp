@@ -10,8 +10,6 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/random.h"
-#include "clip/motion_file.h"
-#include "rig/body_motions.h"
 #include "style/restyle.h"
 
 namespace panache {
@@ -39,12 +37,10 @@ struct RestyledPart {
 Result<std::optional<RestyledPart>> restyle_part(const ManifestRow& row,
                                                  const std::shared_ptr<const Model>& model,
                                                  Random random) {
-  Result<std::unique_ptr<MotionFile>> file = read_motion(row.path);
-  if (!file) return file.error();
-  const Clip& clip = (*file)->clip(first_body_motion(**file));
-  Result<Rig> rig = Rig::create(clip);
-  if (!rig) return located(row.path, rig.error());
-  const int first = std::min(rig->first_frame(), clip.frames - 1);
+  const Result<RiggedClip> from = load_clip(row.path);
+  if (!from) return from.error();
+  const auto& [clip, rig] = *from;
+  const int first = std::min(rig.first_frame(), clip.frames - 1);
   const int frames = clip.frames - first;
   if (frames * clip.frame_time < kMinSeconds) return std::optional<RestyledPart>();
   const int length = std::min(frames, static_cast<int>(kPartSeconds / clip.frame_time));
@@ -53,12 +49,12 @@ Result<std::optional<RestyledPart>> restyle_part(const ManifestRow& row,
   const int style = static_cast<int>(random.below(static_cast<uint32_t>(model->styles().size())));
   RestyleOptions options;
   options.loop = LoopMode::off;
-  Result<Restyled> restyled = restyle(part, *rig, model, {{style, {{0, 1}}}}, options);
+  Result<Restyled> restyled = restyle(part, rig, model, {{style, {{0, 1}}}}, options);
   if (!restyled) return located(row.path, restyled.error());
 
   RestyledPart made;
-  made.neutral = make_take(part, *rig, PoseLayout::positions);
-  made.styled = make_take(restyled->clip, *rig, PoseLayout::positions);
+  made.neutral = make_take(part, rig, PoseLayout::positions);
+  made.styled = make_take(restyled->clip, rig, PoseLayout::positions);
   made.neutral.row = made.styled.row = row;
   made.neutral.row.content = kUnlabelled;
   made.neutral.row.style = "neutral";
@@ -108,21 +104,20 @@ Result<std::vector<Pairing>> add_restyled(const Model& model,
   Progress progress("restyling unlabelled motion");
   std::mutex mutex;
   int done = 0;
-  std::vector<std::optional<Result<std::optional<RestyledPart>>>> parts(rows.size());
-  parallel_for(static_cast<int>(rows.size()), [&](int i) {
-    parts[i] = restyle_part(rows[i], shared, Random(seed * 1000003 + static_cast<uint64_t>(i)));
+  auto parts = parallel_results<std::optional<RestyledPart>>(rows.size(), [&](int i) {
+    auto part = restyle_part(rows[i], shared, Random(seed * 1000003 + static_cast<uint64_t>(i)));
     const std::lock_guard lock(mutex);
     progress.update(static_cast<double>(++done) / static_cast<double>(rows.size()));
+    return part;
   });
+  if (!parts) return parts.error();
   std::vector<Pairing> pairings;
-  for (auto& part : parts) {
-    if (!*part) return part->error();
-    if (!**part) continue;
-    RestyledPart& made = ***part;
+  for (std::optional<RestyledPart>& part : *parts) {
+    if (!part) continue;
     const int index = static_cast<int>(data.takes.size());
-    data.takes.push_back(std::move(made.neutral));
-    data.takes.push_back(std::move(made.styled));
-    pairings.push_back(pairing_of(made.neutral_frames, index + 1, index));
+    data.takes.push_back(std::move(part->neutral));
+    data.takes.push_back(std::move(part->styled));
+    pairings.push_back(pairing_of(part->neutral_frames, index + 1, index));
   }
   return pairings;
 }

@@ -5,8 +5,11 @@
 #include <atomic>
 #include <exception>
 #include <functional>
+#include <optional>
 #include <thread>
 #include <vector>
+
+#include "base/result.h"
 
 namespace panache {
 
@@ -41,6 +44,21 @@ inline void parallel_for(int count, const std::function<void(int)>& work, int th
   for (std::thread& thread : others) thread.join();
   if (first) std::rethrow_exception(first);
 #endif
+}
+
+// What make(i), a Result<T>, gives for each i in [0, count), made as by parallel_for(); or the
+// first error in order.
+template <class T, class Make>
+Result<std::vector<T>> parallel_results(size_t count, const Make& make) {
+  std::vector<std::optional<Result<T>>> made(count);
+  parallel_for(static_cast<int>(count), [&](int i) { made[static_cast<size_t>(i)] = make(i); });
+  std::vector<T> out;
+  out.reserve(count);
+  for (std::optional<Result<T>>& one : made) {
+    if (!*one) return one->error();
+    out.push_back(*std::move(*one));
+  }
+  return out;
 }
 
 }  // namespace panache

@@ -53,6 +53,15 @@ void world_pose(const Skeleton& skeleton, ConstPose local, Pose world) noexcept 
   }
 }
 
+bool leaves_rest_position(const Clip& clip, size_t joint) {
+  constexpr float kStays = 1e-4f;  // Relative to its distance.
+  const Vec3 offset = clip.skeleton.joints[joint].offset;
+  for (int f = 0; f < clip.frames; ++f) {
+    if (length(clip.pose(f).translations[joint] - offset) > kStays * length(offset)) return true;
+  }
+  return false;
+}
+
 void mark_still_joints(Clip& clip) {
   // Programs write the rest pose into every frame, in floats that went through matrices. Less than
   // 1e-4 radians, or 1e-4 of the largest distance between two joints, is invisible.

@@ -83,6 +83,9 @@ inline void place_joint(int joint, int parent, ConstPose local, Pose world) noex
   world.rotations[j] = normalized(world.rotations[p] * local.rotations[j]);
 }
 
+// Whether the joint leaves its rest position in any frame.
+bool leaves_rest_position(const Clip& clip, size_t joint);
+
 // Sets `still` for each joint that stays at rest in all frames of `clip`, up to rounding. The rest
 // pose is that of its skeleton.
 void mark_still_joints(Clip& clip);

@@ -345,20 +345,10 @@ class FbxClipsReader {
     }
     for (size_t j = 0; j < clip.joints(); ++j) {
       Joint& joint = clip.skeleton.joints[j];
-      joint.can_translate = joint.can_translate || leaves(clip, j);
+      joint.can_translate = joint.can_translate || leaves_rest_position(clip, j);
     }
     mark_still_joints(clip);
     return {};
-  }
-
-  // Whether the joint leaves its rest position.
-  static bool leaves(const Clip& clip, size_t joint) {
-    constexpr float kStays = 1e-4f;  // Relative to its distance.
-    const Vec3 offset = clip.skeleton.joints[joint].offset;
-    for (int f = 0; f < clip.frames; ++f) {
-      if (length(clip.pose(f).translations[joint] - offset) > kStays * length(offset)) return true;
-    }
-    return false;
   }
 
   FbxDocument& document_;

@@ -74,16 +74,6 @@ class JointTracks {
   std::vector<int> turning_, moving_;  // [joints] channel, or -1.
 };
 
-// Whether the joint leaves its rest position.
-bool moves(const Clip& clip, size_t joint) {
-  constexpr float kStays = 1e-4f;  // Relative to its distance.
-  const Vec3 offset = clip.skeleton.joints[joint].offset;
-  for (int f = 0; f < clip.frames; ++f) {
-    if (length(clip.pose(f).translations[joint] - offset) > kStays * length(offset)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 bool is_within_reach(Vec3 position) {
@@ -170,7 +160,8 @@ int fill_clip(const GltfDocument& document, GltfAnimation& animation,
   }
   for (size_t j = 0; j < clip.joints(); ++j) {
     Joint& joint = clip.skeleton.joints[j];
-    joint.can_translate = joint.can_translate || joints.moving_channel(j) >= 0 || moves(clip, j);
+    joint.can_translate =
+        joint.can_translate || joints.moving_channel(j) >= 0 || leaves_rest_position(clip, j);
   }
   return -1;
 }

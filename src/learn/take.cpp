@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "base/parallel.h"
 #include "clip/motion_file.h"
@@ -61,32 +60,32 @@ Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout) {
   return take;
 }
 
-Result<Take> load_take(const ManifestRow& row, PoseLayout layout) {
-  Result<std::unique_ptr<MotionFile>> file = read_motion(row.path);
+Result<RiggedClip> load_clip(const std::string& path) {
+  Result<std::unique_ptr<MotionFile>> file = read_motion(path);
   if (!file) return file.error();
   const Clip& clip = (*file)->clip(first_body_motion(**file));
   Result<Rig> rig = Rig::create(clip);
-  if (!rig) return located(row.path, rig.error());
-  Take take = make_take(clip, *rig, layout);
+  if (!rig) return located(path, rig.error());
+  return RiggedClip{clip, *std::move(rig)};
+}
+
+Result<Take> load_take(const ManifestRow& row, PoseLayout layout) {
+  const Result<RiggedClip> from = load_clip(row.path);
+  if (!from) return from.error();
+  Take take = make_take(from->clip, from->rig, layout);
   take.row = row;
   return take;
 }
 
 Result<std::vector<Take>> load_takes(const std::vector<ManifestRow>& rows, PoseLayout layout,
                                      const std::function<void(int)>& progress) {
-  std::vector<std::optional<Result<Take>>> read(rows.size());
   std::atomic<int> done = 0;
-  parallel_for(static_cast<int>(rows.size()), [&](int i) {
-    read[i] = load_take(rows[i], layout);
+  return parallel_results<Take>(rows.size(), [&](int i) {
+    Result<Take> take = load_take(rows[i], layout);
     const int count = ++done;
     if (progress) progress(count);
+    return take;
   });
-  std::vector<Take> takes;
-  for (std::optional<Result<Take>>& take : read) {
-    if (!*take) return take->error();
-    takes.push_back(std::move(*take).value());
-  }
-  return takes;
 }
 
 HumanPositions world_positions(const Take& take, int frame) {

@@ -36,6 +36,13 @@ struct Take {
 // The take of a clip on a character, from its first frame of motion; its row stays empty.
 Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout);
 
+// The first motion of a file that moves the humanoid, and its rig.
+struct RiggedClip {
+  Clip clip;
+  Rig rig;
+};
+Result<RiggedClip> load_clip(const std::string& path);
+
 // Reads one take.
 Result<Take> load_take(const ManifestRow& row, PoseLayout layout);
 

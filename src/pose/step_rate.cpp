@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "base/gravity.h"
 #include "clip/motion_file.h"
 #include "pose/contacts.h"
 #include "rig/body_motions.h"
@@ -25,7 +26,6 @@ namespace {
 // Of 89 walks (of bandai, many with four steps only), 98 % are noticed at 4 times their rate, 71 %
 // at 2.5 times, 85 % at a quarter and 80 % at 0.4 of it.
 
-constexpr double kGravity = 9.81;
 constexpr int kMaxFrames = 3000;  // More add nothing.
 
 // Lengths are in those of a leg, and rates in those of a pendulum as long, sqrt(g / leg).
