@@ -1,5 +1,5 @@
-// Writes package/header.ts: the structs, kinds of errors and functions of panache.h, and the page's
-// functions, for the package.
+// Writes package/header.ts: the structs, constants, kinds of errors and functions of panache.h, and
+// the page's functions, for the package.
 import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 
 const at = (path) => new URL(path, import.meta.url);
@@ -45,9 +45,12 @@ const functions = Array.from(
     .matchAll(/PANACHE_(?:API|EXPORT) [^(]*?(panache_\w+)\(([^)]*)\)/g),
   ([, name, list]) => `  ${name}(${list === 'void' ? '' : list.split(',').map((_, i) => `a${i}: number`)})` +
     ': number;\n');
+const constants = Array.from(header.matchAll(/PANACHE_(?!ERROR_)(\w+) = (\d+)/g),
+  ([, name, value]) => `${camel(`k_${name}`)} = ${value}`);
 const kinds = Array.from(header.matchAll(/PANACHE_ERROR_(\w+) =/g), ([, name]) => camel(name));
 const lines = Array.from(structs, ([name, fields]) =>
   `export const ${camel(name.replace('panache', 'k'))} = ${JSON.stringify(layOut(name, fields))} as const;\n`);
 writeFileSync(at('package/header.ts'),
+  `export const ${constants.join(', ')};\n` +
   `export const kErrorKinds = ${JSON.stringify(kinds)} as const;\n${lines.join('')}` +
   `export interface Functions {\n${functions.join('')}}\n`);

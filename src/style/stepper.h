@@ -18,6 +18,8 @@ class Stepper {
   // `layout`: the layout of the source's windows; `options` must be in their ranges.
   Stepper(Rig rig, PoseLayout layout, const StylizerOptions& options);
 
+  // See StylizerOptions; from the next step on.
+  void set_tempo_everywhere(bool everywhere) noexcept { options_.tempo_everywhere = everywhere; }
   // Forgets the motion so far.
   void reset() noexcept;
   // For the moment of the first step of a motion, if its second pose is known: the step then knows

@@ -43,8 +43,9 @@ class Stylizer {
   const Shape& shape() const noexcept { return source_.shape(); }
   const std::vector<float>& sides() const noexcept { return source_.sides(); }
 
-  // See StylizerOptions::gesture_rate; from the next step on.
+  // See StylizerOptions; from the next step on.
   void set_gesture_rate(float rate) noexcept { source_.set_gesture_rate(rate); }
+  void set_tempo_everywhere(bool everywhere) noexcept { stepper_.set_tempo_everywhere(everywhere); }
 
   // Plays a gesture of a style, scaled by its strength, as soon as no other plays and a foot is
   // down, see GesturePlayer::trigger(). Returns false if the model has no such gesture.

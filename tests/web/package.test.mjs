@@ -240,7 +240,7 @@ test('styles have sides, which characters, clips and players take', async () => 
     walk.setStrength('old', 1);
     if (side !== undefined) walk.setSide('old', side);
     for (let f = 0; f < 30; ++f) walk.step(1 / 60);
-    walk.setTiming('off');  // Makes the character again.
+    walk.setTiming('off');
     for (let f = 0; f < 30; ++f) walk.step(1 / 60);
     const parts = walk.parts('styled').join();
     walk.free();

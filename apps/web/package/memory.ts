@@ -2,7 +2,7 @@
 // panache.h.
 
 import { PanacheError } from './checks.js';
-import { kErrorKinds, type Functions } from './header.js';
+import { kErrorKinds, kOk, type Functions } from './header.js';
 
 /** What the module exports. Pointers and handles are numbers. */
 export interface Exports extends Functions {
@@ -134,7 +134,7 @@ export class Arena {
     return handle;
   }
   check(status: number): void {
-    if (status !== 0) throw this.module.lastError();
+    if (status !== kOk) throw this.module.lastError();
   }
   private get buffer() { return this.module.wasm.memory.buffer; }
 }

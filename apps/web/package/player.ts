@@ -1,7 +1,7 @@
 // Files with motion, and what plays: the walker and their clips.
 
 import { PanacheError, checkBytes, checkFinite, checkKeys, inUse, unexpected } from './checks.js';
-import { kClip, kClipEdit, kJoint } from './header.js';
+import { kClip, kClipEdit, kJoint, kReplace } from './header.js';
 import type { Panache } from './index.js';
 import type { Arena } from './memory.js';
 import { removedIndex, removerHandle, type Remover } from './remover.js';
@@ -17,7 +17,6 @@ export interface ClipInfo {
   /** Whether it moves a humanoid joint; animations of morph weights or props do not. */
   moves: boolean;
 }
-const kReplace = 0;  // PANACHE_REPLACE
 
 export class MotionFile {
   readonly name: string;

@@ -1,7 +1,6 @@
 #include "player.h"
 
 #include <algorithm>
-#include <cstddef>
 
 #include "clip/bvh.h"
 #include "clip/clip.h"
@@ -19,15 +18,6 @@ constexpr double kLongestStep = 0.1;  // Seconds; avoids a jump after the page w
 constexpr double kRecordedSeconds = 20;
 constexpr double kRecordedFps = 60;
 constexpr const char* kName = "styled";  // Name of the motion in a new file.
-
-// Replaces a stylizer or pass by another of the same model and rig, and keeps its state.
-template <class Pass>
-void replace(Pass& one, Pass other) {
-  std::vector<std::byte> state(one.state_size());
-  one.save(state);
-  one = std::move(other);
-  one.restore(state);
-}
 
 // Like `panache convert`: the body has the rig's arm and leg lengths.
 Result<std::string> vrma_of(const Clip& clip, const Rig& rig) {
@@ -107,13 +97,9 @@ StylizerOptions Player::options() const {
 }
 
 void Player::set_timing(Timing timing) {
-  if (timing == timing_) return;
   timing_ = timing;
-  // Cannot fail: the models and the rig are the same as before.
-  if (character_) replace(stylizer(), *Stylizer::create(model_, source_.rig(), options()));
-  if (!removal_) return;
-  replace(*removal_, *RemovalPass::create(remover_, source_.rig(), options()));
-  removal_->set_removed(removed_);
+  if (character_) stylizer().set_tempo_everywhere(timing == Timing::all);
+  if (removal_) removal_->set_tempo_everywhere(timing == Timing::all);
 }
 
 Result<void> Player::use_remover(std::shared_ptr<const Model> remover) {

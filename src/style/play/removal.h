@@ -50,6 +50,7 @@ class RemovalPass {
   ConstPose step(ConstPose in, double input_seconds, double output_seconds) noexcept;
 
   // See Stylizer; the style to take off is not part of the state.
+  void set_tempo_everywhere(bool all) noexcept { stylizer_.set_tempo_everywhere(all); }
   void reset() noexcept { stylizer_.reset(); }
   const Stylizer& stylizer() const noexcept { return stylizer_; }
   size_t state_size() const noexcept { return stylizer_.state_size(); }
