@@ -63,15 +63,8 @@ public sealed class Model : IDisposable {
   /// The seed of a word, such as a character's name.
   public static uint PersonSeed(string word) => Native.panache_person_seed(Native.Utf8(word));
   /// The gestures of a style, "glances left, 1.2 s", for Character.Trigger(); often empty.
-  public IReadOnlyList<string> Gestures(string style) {
-    int place = FindStyle(style);
-    var names = new List<string>();
-    int count = Native.InfoOf(Handle, place).gestureCount;
-    for (int k = 0; k < count; ++k) {
-      names.Add(Native.Text(Native.panache_model_gesture_name(Handle, place, k)));
-    }
-    return names;
-  }
+  public IReadOnlyList<string> Gestures(string style) => gestures[FindStyle(style)];
+  private readonly List<List<string>> gestures = new List<List<string>>();
 
   public Model(byte[] file) {
     File = file;
@@ -81,10 +74,15 @@ public sealed class Model : IDisposable {
     var groups = new List<string>();
     var sides = new List<string>();
     for (int i = 0; i < Native.panache_model_style_count(Handle); ++i) {
-      Native.StyleInfo info = Native.InfoOf(Handle, i);
+      var info = new Native.StyleInfo { structSize = Native.SizeOf<Native.StyleInfo>() };
+      Native.Check(Native.panache_model_get_style_info(Handle, i, ref info));
       styles.Add(Native.Text(Native.panache_model_style_name(Handle, i)));
       groups.Add(Native.Text(info.group));
       sides.Add(Native.Text(info.side));
+      gestures.Add(new List<string>());
+      for (int k = 0; k < info.gestureCount; ++k) {
+        gestures[i].Add(Native.Text(Native.panache_model_gesture_name(Handle, i, k)));
+      }
     }
     Styles = styles;
     Groups = groups;
@@ -481,12 +479,6 @@ internal static class Native {
     var bytes = new byte[size];
     Marshal.Copy(utf8, bytes, 0, size);
     return Encoding.UTF8.GetString(bytes);
-  }
-
-  internal static StyleInfo InfoOf(Handle model, int style) {
-    var info = new StyleInfo { structSize = SizeOf<StyleInfo>() };
-    Check(panache_model_get_style_info(model, style, ref info));
-    return info;
   }
 
   [StructLayout(LayoutKind.Sequential)]

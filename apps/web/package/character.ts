@@ -114,18 +114,17 @@ export interface Report {
 
 /** One of your characters in motion. */
 export class Character extends Styled {
-  #panache: Panache; #joints: number; #styles: readonly Style[]; #remover: Remover | null;
+  #joints: number; #styles: readonly Style[]; #remover: Remover | null;
   #character: number; #block: number; #pose: number;
 
   /** @internal */ static _create(panache: Panache, skeleton: Skeleton, options: CharacterOptions) {
     return new Character(panache, skeleton, options);
   }
   private constructor(panache: Panache, skeleton: Skeleton, options: CharacterOptions) {
-    super();
+    super(panache);
     const { remover, ...told } = optionsOf<Required<CharacterOptions>>(
       { ...kStylizing, skipCycles: false, maxLag: 0, maxLead: 0, remover: null }, options);
     const { _module: module } = panache;
-    this.#panache = panache;
     this.#joints = skeleton.jointCount;
     this.#styles = panache.styles;  // A character keeps the model that it was created with.
     this.#remover = remover;
@@ -148,13 +147,13 @@ export class Character extends Styled {
   /** Removes a style of the remover from the input before styles are added. Keeps the input's
    * tempo. null: none, the default. Eased in. Throws if the character has no remover. */
   setRemoved(style: string | null): void {
-    this.#wasm.panache_character_set_removed(
-      this.#handle(), removedIndex(this.#remover, style, 'character'));
+    this._wasm.panache_character_set_removed(
+      this._character, removedIndex(this.#remover, style, 'character'));
   }
 
   /** Styles the next pose, `seconds` after the last. Input and output may be the same arrays. */
   step(input: Pose, output: Pose, seconds: number): void {
-    const character = this.#handle(), { _module: module } = this.#panache;
+    const character = this._character, { _module: module } = this._panache;
     checkPose(input, this.#joints, 'input');
     checkPose(output, this.#joints, 'output');
     if (typeof seconds !== 'number') throw unexpected('seconds', 'a number', seconds);
@@ -162,30 +161,27 @@ export class Character extends Styled {
     const translations = module.floats(this.#block + 16 * this.#joints, 3 * this.#joints);
     rotations.set(input.rotations);
     translations.set(input.translations);
-    this.#wasm.panache_character_step(character, this.#pose, seconds, this.#pose);
+    this._wasm.panache_character_step(character, this.#pose, seconds, this.#pose);
     output.rotations.set(rotations);
     output.translations.set(translations);
   }
 
   report(): Report {
-    return this.#panache._module.use((arena) => {
+    return this._panache._module.use((arena) => {
       const at = arena.write(kReport);
-      arena.check(this.#wasm.panache_character_get_report(this.#handle(), at));
+      arena.check(this._wasm.panache_character_get_report(this._character, at));
       const { structSize, ...report } = arena.read(kReport, at);
       return report as unknown as Report;
     });
   }
   /** Forgets the motion so far. */
-  reset(): void { this.#wasm.panache_character_reset(this.#handle()); }
+  reset(): void { this._wasm.panache_character_reset(this._character); }
 
   free(): void {
-    this.#wasm.panache_character_destroy(this.#character);
-    this.#wasm.free(this.#block);
+    this._wasm.panache_character_destroy(this.#character);
+    this._wasm.free(this.#block);
     this.#character = this.#block = 0;
   }
-  get #wasm() { return this.#panache._module.wasm; }
-  #handle() { return inUse(this.#character, 'character'); }
-  /** @internal */ get _panache() { return this.#panache; }
   /** @internal */ get _styles() { return this.#styles; }
-  /** @internal */ get _character() { return this.#handle(); }
+  /** @internal */ get _character() { return inUse(this.#character, 'character'); }
 }

@@ -236,12 +236,8 @@ export class Panache {
 
   /** The hash of 300 styled frames, 16 hexadecimal digits; the same on all machines. */
   goldenHash(): string {
-    return this.#module.use((arena) => {
-      const at = arena.allocate(8);
-      this.#wasm.panache_page_golden(this._model(), at);
-      const [low, high] = this.#module.words(at, 2);
-      return high.toString(16).padStart(8, '0') + low.toString(16).padStart(8, '0');
-    });
+    const [low, high] = this.#module.words(this.#wasm.panache_page_golden(this._model()), 2);
+    return high.toString(16).padStart(8, '0') + low.toString(16).padStart(8, '0');
   }
 
   /** Call it after freeing everything that was made with it. */

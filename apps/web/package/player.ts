@@ -148,38 +148,35 @@ export interface Body {
 
 /** A source of motion and the character that it moves. */
 export class Player extends Styled {
-  #panache: Panache; #player: number; #extension: string; #remover: Remover | null = null;
+  #player: number; #extension: string; #remover: Remover | null = null;
   #person: [Person, number] = [null, 1]; #shape: Partial<Shape> = {};
 
   /** @internal */ constructor(panache: Panache, player: number, extension: string) {
-    super();
-    this.#panache = panache;
+    super(panache);
     this.#player = player;
     this.#extension = extension;
     panache._players.add(this);
   }
   /** @internal */ _useModel(): void {
-    this.#panache._module.use((arena) => arena.check(
-      this._wasm.panache_page_player_use_model(this._player, this.#panache._model())));
+    this._panache._module.use((arena) => arena.check(
+      this._wasm.panache_page_player_use_model(this._player, this._panache._model())));
     this.setShape(this.#shape);
     this.setPerson(...this.#person);
   }
-  /** @internal */ get _panache() { return this.#panache; }
-  /** @internal */ get _styles() { return this.#panache.styles; }
+  /** @internal */ get _styles() { return this._panache.styles; }
   /** @internal 0: there is no model yet. */ get _character() {
     return this._wasm.panache_page_player_character(this._player);
   }
-  /** @internal */ protected get _wasm() { return this.#panache._module.wasm; }
   /** @internal */ protected get _player() { return inUse(this.#player, 'player'); }
   /** @internal */ protected get _facts() {
-    return this.#panache._module.copy(
+    return this._panache._module.copy(
       Float64Array, this._wasm.panache_page_player_facts(this._player), 16);
   }
 
   /** Nobody in a model without persons. */
   override setPerson(person: Person, variety = 1): void {
     this.#person = [person, variety];
-    if (this.#panache.personAxes.length) super.setPerson(person, variety);
+    if (this._panache.personAxes.length) super.setPerson(person, variety);
   }
   override setShape(shape: Partial<Shape>): void {
     this.#shape = shape;
@@ -194,8 +191,8 @@ export class Player extends Styled {
   }
   /** Sets the model for setRemoved(); the motion continues. */
   useRemover(remover: Remover): void {
-    this.#panache._module.use((arena) => arena.check(this._wasm.panache_page_player_use_remover(
-      this._player, removerHandle(this.#panache, remover))));
+    this._panache._module.use((arena) => arena.check(this._wasm.panache_page_player_use_remover(
+      this._player, removerHandle(this._panache, remover))));
     this.#remover = remover;
   }
   /** Removes a style of the remover from the input, including its tempo, before styles are added;
@@ -221,12 +218,12 @@ export class Player extends Styled {
   get contacts(): number[] { return [...this._facts.subarray(3, 5)]; }
   /** View, [joints][7]: local rotation x y z w and translation, in the file's units and axes. */
   pose(which: 'input' | 'styled', joints: number): Float32Array {
-    return this.#panache._module.floats(this._facts[which === 'styled' ? 13 : 12], joints * kPartNumbers);
+    return this._panache._module.floats(this._facts[which === 'styled' ? 13 : 12], joints * kPartNumbers);
   }
   /** View, [21][7]: world position (metres, Y up) and orientation x y z w of each human joint. The
    * orientation is relative to the T-pose: left arm along +x, legs along -y, feet along +z. */
   parts(which: 'input' | 'styled'): Float32Array {
-    return this.#panache._module.floats(this._facts[which === 'styled' ? 15 : 14],
+    return this._panache._module.floats(this._facts[which === 'styled' ? 15 : 14],
       kHumanJoints * kPartNumbers);
   }
   /** A body with the rig's proportions; takes some tenths of a second the first time. */
@@ -234,7 +231,7 @@ export class Player extends Styled {
   /** The same with a third of the triangles, for machines without a graphics card. */
   get coarseBody(): Body { return this.#makeBody(1); }
   #makeBody(coarse: number): Body {
-    const { _module: module } = this.#panache;
+    const { _module: module } = this._panache;
     return module.use((arena) => {
       const at = arena.allocate(40);
       this._wasm.panache_page_player_body(this._player, coarse, at);
@@ -258,14 +255,14 @@ export class Player extends Styled {
   /** A file with this extension (".bvh", ".glb", ".vrma", or that of the file played): the whole
    * clip with the current settings, or the last seconds of a walk, at most 20. */
   exportAs(extension: string, options: { which?: 'input' | 'styled'; seconds?: number } = {}): Uint8Array {
-    const { which = 'styled', seconds = Infinity } = options, { _module: module } = this.#panache;
+    const { which = 'styled', seconds = Infinity } = options, { _module: module } = this._panache;
     return module.use((arena) => module.take(
       this._wasm.panache_page_player_export(this._player, arena.text(extension),
         arena.text(this.#extension), which === 'styled' ? 1 : 0, seconds)));
   }
 
   free(): void {
-    this.#panache._players.delete(this);
+    this._panache._players.delete(this);
     this._wasm.panache_page_player_free(this.#player);
     this.#player = 0;
   }

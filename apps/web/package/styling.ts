@@ -165,21 +165,23 @@ export function personNumbers(module: Module, person: Person, variety: number): 
 
 /** What has styles: characters and players. */
 export abstract class Styled {
-  /** @internal */ abstract get _panache(): Panache;
+  /** @internal */ readonly _panache: Panache;
   /** @internal Those of its model. */ abstract get _styles(): readonly Style[];
   /** @internal Its panache_character. */ abstract get _character(): number;
+  /** @internal */ constructor(panache: Panache) { this._panache = panache; }
+  /** @internal */ protected get _wasm() { return this._panache._module.wasm; }
 
   /** 0 is neutral, 1 the style as captured, above 1 exaggerates it (-4 to 4). Eased in. Throws if
    * the model has no such style, or the strength is not finite. */
   setStrength(style: string, strength: number): void {
     const character = this._character, index = styleIndex(this._styles, style);
-    this.#wasm.panache_character_set_strength(
+    this._wasm.panache_character_set_strength(
       character, index, checkFinite(strength, `strength of '${style}'`));
   }
   /** Initially 'captured'. Eased in. Throws if the model has no such style or the style no such side. */
   setSide(style: string, side: Side): void {
     const character = this._character, index = styleIndex(this._styles, style);
-    this.#wasm.panache_character_set_side(character, index, sideNumber(side, this._styles[index]));
+    this._wasm.panache_character_set_side(character, index, sideNumber(side, this._styles[index]));
   }
   /** Moves as somebody else does, in addition to the styles; initially null, nobody. `variety`: how
    * far from the mean person, 0 to 2; 1, the default, is as people differ. Eased in. Throws if the
@@ -189,7 +191,7 @@ export abstract class Styled {
     const [seed, amount] = personNumbers(module, person, variety);
     if (amount === 0 && personAxes.length === 0) return;
     module.use((arena) => arena.check(
-      this.#wasm.panache_character_set_person(character, seed, amount)));
+      this._wasm.panache_character_set_person(character, seed, amount)));
   }
   /** Plays a gesture of a style (its index in `gestures`; 0) at the style's strength. Waits up to
    * 3 s until no other gesture plays and a foot is on the floor; otherwise drops it. Throws if the
@@ -197,16 +199,15 @@ export abstract class Styled {
   trigger(style: string, gesture = 0): void {
     const character = this._character, index = styleIndex(this._styles, style);
     checkInteger(gesture, 'gesture');
-    if (this.#wasm.panache_character_trigger(character, index, gesture)) return;
+    if (this._wasm.panache_character_trigger(character, index, gesture)) return;
     const { name, gestures } = this._styles[index];
     throw new PanacheError(`style '${name}' has no gesture ${gesture}; it has ${gestures.length}`);
   }
   /** Missing amounts are 1. Eased in. */
   setShape(shape: Partial<Shape>): void {
     this._panache._module.use((arena) => arena.check(
-      this.#wasm.panache_character_set_shape(this._character, writeShape(arena, shape))));
+      this._wasm.panache_character_set_shape(this._character, writeShape(arena, shape))));
   }
-  get #wasm() { return this._panache._module.wasm; }
 }
 
 /** See style_timing in panache.h. */

@@ -13,7 +13,6 @@ import {
 import { Steering } from './steering';
 import { keyedNow } from './styling';
 
-/** What listeners hear of: another source, other styles, another list of files. */
 type News = 'source' | 'styles' | 'files';
 
 export class Session {
@@ -174,9 +173,5 @@ export class Session {
   /** Reads the open file at `fps` frames per second; 0: at its own rate. */
   async setRate(fps: number) {
     if (this.source.kind === 'clip' && this.#file) await this.open(this.#file, this.source.clip, fps);
-  }
-  /** Steers the walker again. */
-  walk() {
-    this.use(walkSource(this.panache));
   }
 }

@@ -7,6 +7,7 @@ import { capitalized } from './groups';
 import { buildViewSaving } from './save_view';
 import type { Session } from './session';
 import { toAddress, type Store } from './settings';
+import { walkSource } from './source';
 import type { Stage } from './stage';
 import { kPaces, type Pace } from './steering';
 
@@ -103,7 +104,8 @@ export function buildFileControls(session: Session, stage: Stage, exporter: Expo
     menu.hidden = files.length < 2;
   });
   find('#file-controls').append(menu,
-    act('back', 'Walker', 'Close the file and steer the walker again', () => session.walk()),
+    act('back', 'Walker', 'Close the file and steer the walker again',
+      () => session.use(walkSource(session.panache))),
     act('open', 'Open …',
       'BVH, GLB, glTF, VRM or VRMA files, a model or a style; or drop them on the view',
       () => input.click()),

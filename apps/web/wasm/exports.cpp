@@ -15,11 +15,10 @@
 using namespace panache;
 using namespace panache::web;
 
-// Writes the two words of the hash, the lower first.
-PANACHE_EXPORT void panache_page_golden(const panache_model* model, uint32_t* out) {
-  const uint64_t hash = golden_hash(model->model);
-  out[0] = static_cast<uint32_t>(hash);
-  out[1] = static_cast<uint32_t>(hash >> 32);
+PANACHE_EXPORT const uint64_t* panache_page_golden(const panache_model* model) {
+  static uint64_t hash;
+  hash = golden_hash(model->model);
+  return &hash;
 }
 
 PANACHE_EXPORT WalkerHandle* panache_page_walker_create(const char* data, uint32_t size) {
