@@ -110,7 +110,7 @@ float FlightWatch::amount(double time) const noexcept {
 namespace {
 
 constexpr float kReturnSeconds = 0.12f;  // Time constant, on the ground.
-constexpr float kNothing = 1e-6f;           // Metres.
+constexpr float kNothing = 1e-6f;        // Metres.
 
 }  // namespace
 

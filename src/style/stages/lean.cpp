@@ -48,7 +48,8 @@ void keep_balance(const HeadingBody& body, float amount, HumanPositions& joints,
   for (int j = index(hips); j <= index(right_hand); ++j) upper += joints[j] / kJoints;
   const float height = std::max(upper.y, 0.0f);
   const float wanted = back * height / (height * height + kLever * kLever);
-  const float leans = dot(torso_direction(joints) - rotate(body.to_heading, torso_direction(body.joints)), direction);
+  const float leans = dot(
+      torso_direction(joints) - rotate(body.to_heading, torso_direction(body.joints)), direction);
   const float angle = std::min(wanted, leans);
   if (!(angle > 0)) return;
   const Quat turn = axis_angle(Vec3{-direction.z, 0, direction.x}, angle);
