@@ -95,11 +95,18 @@ TEST(GltfSafety, every_truncation_is_harmless) {
   }
 }
 
+// Under the sanitizers reading takes ten times as long, and a fuzz target tries such files, too.
+#ifdef PANACHE_SANITIZED
+constexpr size_t kByteStep = 7;
+#else
+constexpr size_t kByteStep = 1;
+#endif
+
 TEST(GltfSafety, every_changed_byte_is_harmless) {
   constexpr unsigned char kValues[] = {0, '9', 0xff};
-  int accepted = 0, rejected = 0;
+  size_t accepted = 0, rejected = 0;
   const std::string bytes = test::to_glb(rich_gltf());
-  for (size_t i = 0; i < bytes.size(); ++i) {
+  for (size_t i = 0; i < bytes.size(); i += kByteStep) {
     std::string spoilt = bytes;
     spoilt[i] = static_cast<char>(kValues[i % std::size(kValues)]);
     ++(check_harmless(spoilt) ? accepted : rejected);
@@ -107,8 +114,8 @@ TEST(GltfSafety, every_changed_byte_is_harmless) {
     ++(check_harmless(spoilt) ? accepted : rejected);
   }
   // Both ways were taken, or this test says nothing.
-  EXPECT_GT(accepted, 1000);
-  EXPECT_GT(rejected, 1000);
+  EXPECT_GT(accepted, 1000 / kByteStep);
+  EXPECT_GT(rejected, 1000 / kByteStep);
 }
 
 // Calls `visit` with each value of `json`, the innermost first.
