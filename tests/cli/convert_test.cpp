@@ -69,17 +69,7 @@ TEST_F(Convert, a_bvh_from_glb_rests_as_the_glb_does) {
   const auto glb = open("hero.glb"), bvh = open("out.bvh");
   ASSERT_TRUE(glb && bvh);
   // Both skeletons without motion.
-  const auto at_rest = [](const Clip& clip) {
-    Clip rest;
-    rest.skeleton = clip.skeleton;
-    rest.resize(1);
-    for (size_t j = 0; j < rest.joints(); ++j) {
-      rest.rotations[j] = rest.skeleton.joints[j].rest;
-      rest.translations[j] = rest.skeleton.joints[j].offset;
-    }
-    return rest;
-  };
-  expect_same_positions(at_rest(glb->clip()), at_rest(bvh->clip()), kNear);
+  expect_same_positions(rest_clip(glb->clip().skeleton), rest_clip(bvh->clip().skeleton), kNear);
 }
 
 TEST_F(Convert, gltf_takes_along_what_it_points_to) {

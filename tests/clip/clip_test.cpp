@@ -195,22 +195,11 @@ void expect_same_positions(const Clip& a, const Clip& b) {
   }
 }
 
-Clip at_rest(const Clip& clip) {
-  Clip rest;
-  rest.skeleton = clip.skeleton;
-  rest.resize(1);
-  for (size_t j = 0; j < rest.joints(); ++j) {
-    rest.rotations[j] = rest.skeleton.joints[j].rest;
-    rest.translations[j] = rest.skeleton.joints[j].offset;
-  }
-  return rest;
-}
-
 TEST(RestAxes, a_motion_keeps_every_place_and_rests_without_rotation) {
   const Clip clip = turned_clip(true), out = in_rest_axes(clip);
   for (const Joint& joint : out.skeleton.joints) EXPECT_EQ(joint.rest, Quat{});
   expect_same_positions(clip, out);
-  expect_same_positions(at_rest(clip), at_rest(out));
+  expect_same_positions(rest_clip(clip.skeleton), rest_clip(out.skeleton));
 }
 
 TEST(RestAxes, a_motion_that_rests_without_rotation_stays_as_it_is) {

@@ -45,7 +45,7 @@ TEST(GltfError, every_member_that_is_wrong_has_its_place_and_message) {
   const Member cases[] = {
       {"/asset/version", "\"1.0\"", "asset: expected glTF version 2.0, found '1.0'"},
       {"/asset/minVersion", "\"2.1\"", "asset: expected glTF version 2.0, found '2.1'"},
-      // A tree that is none.
+      // Nodes that do not form a tree.
       {"/nodes/2/children/0", "0", "nodes: expected a tree, found nodes that are below themselves"},
       {"/nodes/3/children/0", "2",
        "nodes[3].children[0]: expected a node without another parent, found node 2, a child of "
@@ -111,7 +111,7 @@ TEST(GltfError, every_member_that_is_wrong_has_its_place_and_message) {
       {"/images/0", "5", "images[0]: expected an object, found 5"},
       {"/images/0/mimeType", "5", "images[0].mimeType: expected a text, found 5"},
       {"/extensions", "1", "extensions: expected an object, found 1"},
-      // A humanoid that is none.
+      // A humanoid that is malformed.
       {"/extensions/VRMC_vrm_animation", "1",
        "extensions.VRMC_vrm_animation: expected an object, found 1"},
       {"/extensions/VRMC_vrm/humanoid/humanBones/hips", "1",

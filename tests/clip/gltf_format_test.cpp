@@ -141,7 +141,7 @@ TEST(GltfUri, data_may_be_base64_or_percent_encoded) {
   EXPECT_EQ(*decode_data_uri("data:;base64,AAEC/w=="), std::string("\0\1\2\xff", 4));
   EXPECT_EQ(*decode_data_uri("data:text/plain,a%4Ab%4ac%20"), "aJbJc ");
   EXPECT_EQ(*decode_data_uri("data:,%0a%Af%9A%fF"), "\x0a\xaf\x9a\xff");
-  // What is no code stays as it is.
+  // A percent sign without two hexadecimal digits stays as it is.
   EXPECT_EQ(*decode_data_uri("data:,%zz%4"), "%zz%4");
   EXPECT_EQ(*decode_data_uri("data:,%4g%g4%"), "%4g%g4%");
   EXPECT_EQ(*decode_data_uri("data:,%/1%:1%@1%G1%`1"), "%/1%:1%@1%G1%`1");

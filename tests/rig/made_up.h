@@ -96,7 +96,8 @@ inline std::string with_side(std::string text, const std::string& side) {
   return star == std::string::npos ? text : text.replace(star, 1, side);
 }
 
-// What the joints are called that a person takes for human ones, on both sides; "" is none.
+// The name of each human joint of the rig, as a person would map it, on both sides; "" where the
+// rig has none.
 using HumanNames = std::array<std::string, kHumanJoints>;
 inline HumanNames names_of(const std::vector<Line>& lines, const std::string& left,
                            const std::string& right) {

@@ -12,6 +12,45 @@
 namespace panache {
 namespace {
 
+constexpr double kEase = 0.1;         // Seconds.
+constexpr double kReturnSpeed = 0.1;  // Relative to the clock: a tenth is not noticeable.
+constexpr double kReturnSeconds = 0.5;
+
+double smooth(double t) {
+  t = std::clamp(t, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+}  // namespace
+
+double PlayHead::ease() const noexcept { return std::min(kEase, (max_lag_ + max_lead_) / 2); }
+
+double PlayHead::room_ahead() const noexcept {
+  return ease() > 0 ? smooth((max_lead_ - ahead_) / ease()) : 0;
+}
+
+double PlayHead::room_behind() const noexcept {
+  return ease() > 0 ? smooth((ahead_ + max_lag_) / ease()) : 0;
+}
+
+double PlayHead::advance(double seconds, double rate, bool styled) noexcept {
+  const double before = ahead_;
+  if (!styled) {
+    const double back = std::clamp(ahead_ / kReturnSeconds, -kReturnSpeed, kReturnSpeed);
+    ahead_ -= back * seconds;
+    if (std::abs(ahead_) < 1e-3) ahead_ = 0;
+  } else if (rate > 1) {
+    ahead_ += (rate - 1) * room_ahead() * seconds;
+  } else {
+    ahead_ += (rate - 1) * room_behind() * seconds;
+  }
+  // A long step may have gone too far.
+  ahead_ = std::clamp(ahead_, -max_lag_, max_lead_);
+  return std::max(0.0, seconds + ahead_ - before);
+}
+
+namespace {
+
 // The length of a cycle: even a shuffle of two steps takes longer than the minimum. Seconds.
 constexpr double kShortestCycle = 0.4, kLongestCycle = 2.0;
 // The poses this long before must be similar, too. Seconds.
@@ -47,8 +86,6 @@ constexpr double kSearchEvery = 0.06;  // Seconds.
 constexpr double kBlend = 0.2;         // Seconds from the old head to the new one.
 // Time constant for predictions beyond the newest pose, which are noisier than motion.
 constexpr float kLeadSeconds = 0.04f;
-
-float blend_share(double t) { return static_cast<float>(t * t * (3 - 2 * t)); }
 
 }  // namespace
 
@@ -160,7 +197,7 @@ void Playback::blend_from_old(double seconds, double played, Pose shown) noexcep
   old_ahead_ = std::clamp(old_ahead_ + played - seconds, -options_.max_lag, options_.max_lead);
   const Pose old{old_rotations_, old_translations_};
   pose_at(old_ahead_, old_offset_, old);
-  const float share = blend_share(blended_);
+  const float share = static_cast<float>(smooth(blended_));
   for (size_t j = 0; j < shown.rotations.size(); ++j) {
     shown.rotations[j] = nlerp(old.rotations[j], shown.rotations[j], share);
     shown.translations[j] = lerp(old.translations[j], shown.translations[j], share);
@@ -177,45 +214,6 @@ Playback::Shown Playback::show(double seconds, double rate, bool styled) noexcep
   pose_at(head_.ahead(), offset_, shown);
   blend_from_old(seconds, played, shown);
   return {shown, {played, seconds, flights_.amount(time_ + head_.ahead())}};
-}
-
-namespace {
-
-constexpr double kEase = 0.1;         // Seconds.
-constexpr double kReturnSpeed = 0.1;  // Relative to the clock: a tenth is not noticeable.
-constexpr double kReturnSeconds = 0.5;
-
-double smooth(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-}  // namespace
-
-double PlayHead::ease() const noexcept { return std::min(kEase, (max_lag_ + max_lead_) / 2); }
-
-double PlayHead::room_ahead() const noexcept {
-  return ease() > 0 ? smooth((max_lead_ - ahead_) / ease()) : 0;
-}
-
-double PlayHead::room_behind() const noexcept {
-  return ease() > 0 ? smooth((ahead_ + max_lag_) / ease()) : 0;
-}
-
-double PlayHead::advance(double seconds, double rate, bool styled) noexcept {
-  const double before = ahead_;
-  if (!styled) {
-    const double back = std::clamp(ahead_ / kReturnSeconds, -kReturnSpeed, kReturnSpeed);
-    ahead_ -= back * seconds;
-    if (std::abs(ahead_) < 1e-3) ahead_ = 0;
-  } else if (rate > 1) {
-    ahead_ += (rate - 1) * room_ahead() * seconds;
-  } else {
-    ahead_ += (rate - 1) * room_behind() * seconds;
-  }
-  // A long step may have gone too far.
-  ahead_ = std::clamp(ahead_, -max_lag_, max_lead_);
-  return std::max(0.0, seconds + ahead_ - before);
 }
 
 }  // namespace panache

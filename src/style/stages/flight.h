@@ -77,8 +77,8 @@ class FreeFall {
   }
 
  private:
-  float wanted_ = 0;  // Height at the last step, before it was adjusted, metres,
-  float held_ = 0;    // and the adjustment.
+  float wanted_ = 0;  // The height that the style asks for at the last step, metres;
+  float held_ = 0;    // what is added to it.
 };
 
 }  // namespace panache

@@ -98,8 +98,6 @@ constexpr float kFirmKnee = 0.05f;   // See bend_of(), metres.
 constexpr float kLegReach = 0.985f;  // Maximum stretch, as a share of the leg's length.
 constexpr float kSoftLimit = 0.02f;  // Metres over which the limit sets in.
 
-float legs_of(const Shape& shape) { return shape.regions[static_cast<size_t>(Region::legs)]; }
-
 // How far the hips must sink so that no leg stretches beyond kLegReach, or beyond its stretch
 // without the gesture; softly. `before` and `joints`: without and with the gesture.
 float drop_for_legs(const HumanPositions& before, const HumanPositions& joints, float raised) {

@@ -18,6 +18,14 @@ constexpr float kLever = 0.05f;
 
 constexpr float kJoints = kHumanJoints;
 
+void turn_upper_body(Quat turn, const HeadingBody& body, HumanPositions& joints,
+                     BodyChange& change) {
+  for (int j = index(hips); j <= index(right_hand); ++j) {
+    change.rotations[j] = normalized(turn * change.rotations[j]);
+  }
+  changed_joints(body, change, joints);
+}
+
 }  // namespace
 
 Vec3 torso_direction(const HumanPositions& joints) noexcept {
@@ -53,10 +61,7 @@ void keep_balance(const HeadingBody& body, float amount, HumanPositions& joints,
   const float angle = std::min(wanted, leans);
   if (!(angle > 0)) return;
   const Quat turn = axis_angle(Vec3{-direction.z, 0, direction.x}, angle);
-  for (int j = index(hips); j <= index(right_hand); ++j) {
-    change.rotations[j] = normalized(turn * change.rotations[j]);
-  }
-  changed_joints(body, change, joints);
+  turn_upper_body(turn, body, joints, change);
 }
 
 namespace {
@@ -88,10 +93,7 @@ void limit_fold(const HeadingBody& body, float amount, HumanPositions& joints,
       amount * added * smooth_step((own - kUprightLean) / (kBentLean - kUprightLean));
   if (!(back > 0)) return;
   const Quat turn = axis_angle(normalized(cross(now, Vec3{0, 1, 0})), back);
-  for (int j = index(hips); j <= index(right_hand); ++j) {
-    change.rotations[j] = normalized(turn * change.rotations[j]);
-  }
-  changed_joints(body, change, joints);
+  turn_upper_body(turn, body, joints, change);
 }
 
 }  // namespace panache

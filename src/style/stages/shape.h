@@ -41,6 +41,11 @@ struct Shape {
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
+// The amount of the legs.
+inline float legs_of(const Shape& shape) noexcept {
+  return shape.regions[static_cast<size_t>(Region::legs)];
+}
+
 // Every style as it was captured.
 inline constexpr Shape kPlainShape;
 

@@ -11,8 +11,6 @@ namespace {
 constexpr float kPostureSeconds = 0.8f;
 constexpr float kNear = 1e-7f;
 
-float legs_of(const Shape& shape) { return shape.regions[static_cast<size_t>(Region::legs)]; }
-
 // A joint's part of the change is its turn relative to its parent.
 void weigh_regions(const Shape& shape, std::array<Quat, kHumanJoints>& rotations) {
   if (shape.regions == Shape{}.regions) return;
