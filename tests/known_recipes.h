@@ -1,7 +1,7 @@
 #pragma once
 // The recipes that tests call by name.
 
-#include "recipes/recipes.h"
+#include "recipes/recipe.h"
 
 namespace panache::test {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/names.h"
+#include "base/text.h"
 #include "clip/gltf.h"
 #include "clip/smpl.h"
 #include "fbx.h"
@@ -20,7 +20,7 @@
 #include "retarget/retarget.h"
 #include "rig/body_mesh.h"
 #include "rig/body_motions.h"
-#include "rig/file_space.h"
+#include "rig/figures.h"
 
 namespace panache::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/result.h"
-#include "clip/meshopt.h"
+#include "clip/gltf.h"
 #include "clip/motion_format.h"
 #include "rig/rig.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/file.h"
-#include "base/little_endian.h"
+#include "base/bytes.h"
 #include "base/text.h"
 #include "clip/gltf_json.h"
 #include "clip/text_cursor.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/names.h"
+#include "base/text.h"
 #include "clip/text_cursor.h"
 #include "program.h"
 #include "strengths.h"

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/names.h"
+#include "base/text.h"
 #include "clip/text_cursor.h"
 #include "fbx.h"
 #include "formats.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/file.h"
-#include "base/names.h"
+#include "base/text.h"
 #include "clip/text_cursor.h"
 #include "messages.h"
 #include "rig/humanoid.h"

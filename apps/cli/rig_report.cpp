@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "rig/file_space.h"
+#include "rig/figures.h"
 
 namespace panache::cli {
 namespace {

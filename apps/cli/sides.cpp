@@ -5,7 +5,7 @@
 
 #include "clip/text_cursor.h"
 #include "messages.h"
-#include "style/model/side.h"
+#include "style/model/model.h"
 
 namespace panache::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <fast_float/fast_float.h>
 
 #include "base/csv.h"
-#include "base/names.h"
+#include "base/text.h"
 #include "clip/text_cursor.h"
 #include "messages.h"
 

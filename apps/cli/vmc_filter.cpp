@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 #include "vmc_bones.h"
 
 namespace panache::cli {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pose/changed_joints.h"
 #include "pose/limb.h"
+#include "pose/style_delta.h"
 #include "rig/posed_rig.h"
 #include "walker/walker.h"
 

@@ -13,11 +13,13 @@
 #include "manifests.h"
 #include "messages.h"
 #include "model_path.h"
+#include "takes/load_takes.h"
+#include "takes/manifest.h"
 
 namespace panache::cli {
 namespace {
 
-struct Options {
+struct ArrivalFlags {
   ManifestOptions data;
   std::vector<std::string> models;
 };
@@ -87,7 +89,7 @@ std::string complaints(const std::vector<StyleArrival>& styles,
   return text;
 }
 
-int run(const Options& options) {
+int run(const ArrivalFlags& options) {
   const Manifests data = need(read_manifests(options.data));
   need(check_files(data.rows));
   std::vector<ManifestRow> training, test, neutral, others;
@@ -121,7 +123,7 @@ int run(const Options& options) {
 void add_arrival(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
       "arrival", "Measure how much of each style's movement and side arrives on walks");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ArrivalFlags>();
   add_manifest_options(*verb, options->data)->required();
   add_option(*verb, "--model FILE", options->models, "Model to measure; may be given several times")
       ->required()

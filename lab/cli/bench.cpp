@@ -16,13 +16,13 @@ namespace {
 
 constexpr int64_t kQuickSteps = 100'000;
 
-struct Options {
+struct BenchFlags {
   std::string model, systems, styles;
   int64_t steps = 1'000'000;
   bool quick = false, json = false;
 };
 
-int run(const Options& options) {
+int run(const BenchFlags& options) {
   need(check_range("--steps", static_cast<double>(options.steps), 1, 1e9), kBadUsage);
   bench::Options bench_options;
   bench_options.model = need(find_model(options.model, kFloatModel));
@@ -50,7 +50,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_bench(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchFlags>();
   CLI::App* verb = app.add_subcommand("bench", "Measure the speed of networks and steps");
   verb->add_option("--model", options->model,
                    "Model as floats, timed as it is and in int8; default:\n$PANACHE_MODEL, else "

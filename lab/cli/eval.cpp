@@ -11,17 +11,18 @@
 #include "eval/report.h"
 #include "eval/systems/recorded.h"
 #include "eval/systems/table.h"
+#include "lab_verbs.h"
 #include "manifests.h"
 #include "messages.h"
 #include "model_path.h"
 #include "outputs.h"
 #include "program.h"
-#include "lab_verbs.h"
+#include "takes/manifest.h"
 
 namespace panache::cli {
 namespace {
 
-struct Options {
+struct EvalFlags {
   ManifestOptions data;
   std::vector<std::string> tests;
   std::vector<std::string> models;
@@ -72,7 +73,7 @@ std::vector<ManifestRow> read_tests(const std::vector<std::string>& tests,
 }
 
 // The report identifies systems by their names.
-void check_names(const Options& options, const EvaluateOptions& evaluation) {
+void check_names(const EvalFlags& options, const EvaluateOptions& evaluation) {
   std::map<std::string, std::string> names;  // And their owners.
   for (size_t m = 0; m < evaluation.models.size(); ++m) {
     const auto [name, is_new] = names.try_emplace(evaluation.models[m].name, options.models[m]);
@@ -93,7 +94,7 @@ void check_names(const Options& options, const EvaluateOptions& evaluation) {
   }
 }
 
-EvaluateOptions read_options(const Options& options) {
+EvaluateOptions read_options(const EvalFlags& options) {
   EvaluateOptions evaluation;
   Manifests data = need(read_manifests(options.data));
   evaluation.styles = data.styles;
@@ -148,7 +149,7 @@ EvaluateOptions read_options(const Options& options) {
   return evaluation;
 }
 
-int run(const Options& options) {
+int run(const EvalFlags& options) {
   if (!options.report.empty()) {
     for (const char* name : {"report.json", "index.html"}) {
       need(check_free((std::filesystem::path(options.report) / name).string(), options.force));
@@ -175,7 +176,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_eval(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EvalFlags>();
   CLI::App* verb = app.add_subcommand("eval", "Evaluate models against real motion");
   add_manifest_options(*verb, options->data)->required();
   const auto several = [&](const char* name, std::vector<std::string>& values,

@@ -10,6 +10,7 @@
 #include "manifests.h"
 #include "messages.h"
 #include "model_path.h"
+#include "takes/load_takes.h"
 #include "train/persons.h"
 
 namespace panache::cli {
@@ -18,7 +19,7 @@ namespace {
 constexpr int kSeeds = 40;  // Whose spread is compared with that of real people.
 constexpr int kRounds = 3;
 
-struct Options {
+struct FitPersonsFlags {
   std::vector<std::string> manifests, models;
   std::string bank;
   PersonSettings settings;
@@ -39,7 +40,7 @@ std::vector<TestInput> walks_of(const std::vector<Take>& takes, size_t count) {
   return need(load_inputs(chosen));
 }
 
-int fit(const Options& options) {
+int fit(const FitPersonsFlags& options) {
   Manifests data = need(read_manifests({options.manifests, "", {}}));
   std::erase_if(data.rows, [](const ManifestRow& row) { return row.test || !row.neutral; });
   need(check_files(data.rows));
@@ -85,7 +86,7 @@ int fit(const Options& options) {
 void add_fit_persons(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("fit-persons", "Fit how people differ, for panache stylize --person");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FitPersonsFlags>();
   verb->add_option("MANIFEST", options->manifests,
                    "Manifests with neutral takes of many people; without a column\nperson, files "
                    "are called PERSON_TAKE")

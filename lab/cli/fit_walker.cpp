@@ -14,14 +14,14 @@
 namespace panache::cli {
 namespace {
 
-struct Options {
+struct FitWalkerFlags {
   std::string output;
   std::vector<std::string> manifests;
   std::string data, licence;  // For the metadata of the model.
   bool force = false;
 };
 
-int fit(const Options& options) {
+int fit(const FitWalkerFlags& options) {
   need(check_free(options.output, options.force));
   const Manifests data = need(read_manifests({options.manifests, "", {}}));
   const FittedWalker fitted = need(fit_walker(data.rows, options.data, options.licence));
@@ -38,7 +38,7 @@ int fit(const Options& options) {
 
 void add_fit_walker(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("fit-walker", "Fit the model of panache walker");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FitWalkerFlags>();
   verb->add_option("MANIFEST", options->manifests, "Manifests with neutral takes to fit to")
       ->required();
   add_option(*verb, "-o,--output OUT", options->output, "Model to write (.safetensors)")

@@ -11,11 +11,12 @@
 #include "manifests.h"
 #include "messages.h"
 #include "model_path.h"
+#include "takes/load_takes.h"
 
 namespace panache::cli {
 namespace {
 
-struct Options {
+struct GesturesFlags {
   ManifestOptions data;
   std::vector<std::string> models, of, actions;
 };
@@ -60,7 +61,7 @@ Found find(const Manifests& data, const std::string& style,
   return {gestures, all.rate};
 }
 
-int run(const Options& options) {
+int run(const GesturesFlags& options) {
   const Manifests data = need(read_manifests(options.data));
   need(check_files(data.rows));
   std::vector<TensorFile> models;
@@ -81,7 +82,7 @@ int run(const Options& options) {
 void add_gestures(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("gestures", "Find the gestures of styles in their takes, for models");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GesturesFlags>();
   add_manifest_options(*verb, options->data)->required();
   add_option(*verb, "--model FILE", options->models,
              "Model whose styles get the gestures; may be given several times")

@@ -9,16 +9,17 @@
 #include "manifests.h"
 #include "messages.h"
 #include "model_path.h"
+#include "takes/load_takes.h"
 
 namespace panache::cli {
 namespace {
 
-struct Options {
+struct LearningFlags {
   std::vector<std::string> manifests;
   std::string model, bank;
 };
 
-int measure(const Options& options) {
+int measure(const LearningFlags& options) {
   const Manifests data = need(read_manifests({options.manifests, "", {}}));
   const TensorFile model = need(read_tensors(options.model));
   const auto bank = need(NeutralBank::load(options.bank));
@@ -45,7 +46,7 @@ int measure(const Options& options) {
 void add_learning(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
       "learning", "Measure learning from one clip of a style, with a neutral clip and without");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LearningFlags>();
   verb->add_option("MANIFEST", options->manifests,
                    "Manifests with styled and neutral takes; takes marked test judge")
       ->required();

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/result.h"
-#include "learn/manifest.h"
+#include "takes/manifest.h"
 
 namespace panache::cli {
 

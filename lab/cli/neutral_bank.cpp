@@ -10,19 +10,20 @@
 #include "manifests.h"
 #include "messages.h"
 #include "outputs.h"
+#include "takes/load_takes.h"
 #include "train/neutral_bank_maker.h"
 
 namespace panache::cli {
 namespace {
 
-struct Options {
+struct NeutralBankFlags {
   std::string output;
   std::vector<std::string> manifests;
   std::string data, licence;  // For the metadata of the bank.
   bool force = false;
 };
 
-int make(const Options& options) {
+int make(const NeutralBankFlags& options) {
   need(check_free(options.output, options.force));
   Manifests data = need(read_manifests({options.manifests, "", {}}));
   std::erase_if(data.rows, [](const ManifestRow& row) { return row.test || !row.neutral; });
@@ -42,7 +43,7 @@ int make(const Options& options) {
 void add_neutral_bank(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
       "neutral-bank", "Make the bank of neutral motion that panache learn uses for single clips");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NeutralBankFlags>();
   verb->add_option("MANIFEST", options->manifests,
                    "Manifests with neutral takes, whose files are called PERSON_TAKE")
       ->required();

@@ -15,7 +15,7 @@
 namespace panache::cli {
 namespace {
 
-struct Options {
+struct OutputsFlags {
   std::string clips, model;
   float strength = 1;
   bool by_clip = false;
@@ -68,7 +68,7 @@ std::string table(const std::vector<std::vector<OodRow>>& groups) {
   return text;
 }
 
-int run(const Options& options) {
+int run(const OutputsFlags& options) {
   const std::vector<std::string> files = need(list_ood(options.clips));
   const ModelSystem system("model", need(Model::load(options.model)));
   std::vector<OodRow> rows;
@@ -100,7 +100,7 @@ int run(const Options& options) {
 void add_outputs(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
       "outputs", "Measure what the stages after the networks do to any motion, in every style");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<OutputsFlags>();
   add_option(*verb, "CLIPS", options->clips, "A motion file, a folder or a manifest (.csv)")
       ->required();
   add_option(*verb, "--model FILE", options->model, "Model to measure")->required();

@@ -8,11 +8,12 @@
 #include "lab_verbs.h"
 #include "manifests.h"
 #include "messages.h"
+#include "takes/load_takes.h"
 
 namespace panache::cli {
 namespace {
 
-struct Options {
+struct PersonsFlags {
   std::vector<std::string> manifests, walks, others;
   std::string model, bank;
   int seeds = 20, other_seeds = 5;
@@ -37,7 +38,7 @@ void print_changes(const std::string& what, const std::vector<OodRow>& rows) {
         fixed(100 * of.more_sliding, 1) + " % more; " + fixed(of.cm, 1) + " cm from the input\n");
 }
 
-int measure(const Options& options) {
+int measure(const PersonsFlags& options) {
   Manifests data = need(read_manifests({options.manifests, "", {}}));
   std::erase_if(data.rows, [](const ManifestRow& row) { return !row.neutral; });
   const auto model = need(Model::load(options.model));
@@ -88,7 +89,7 @@ int measure(const Options& options) {
 void add_persons(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("persons", "Measure the persons of a model beside real people");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PersonsFlags>();
   verb->add_option("MANIFEST", options->manifests,
                    "Manifests with neutral walks of many people on one skeleton")
       ->required();

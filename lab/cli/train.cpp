@@ -8,20 +8,20 @@
 #include <thread>
 
 #include "base/file.h"
-#include "base/names.h"
+#include "base/text.h"
+#include "lab_verbs.h"
 #include "manifests.h"
 #include "messages.h"
+#include "program.h"
 #include "stop_signal.h"
 #include "style/model/model.h"
 #include "train/checkpoint.h"
 #include "train/trainer.h"
-#include "program.h"
-#include "lab_verbs.h"
 
 namespace panache::cli {
 namespace {
 
-struct Options {
+struct TrainFlags {
   ManifestOptions data;
   std::string output, recipe = default_recipe().name, data_name, licence, remover_of;
   int64_t steps = 0;
@@ -92,7 +92,7 @@ Json to_json(const std::vector<StyleCoverage>& styles) {
   return list;
 }
 
-int run(const Options& options) {
+int run(const TrainFlags& options) {
   const Recipe& recipe = *find_recipe(options.recipe);
   if (!options.data.unlabelled.empty() && recipe.training.guidance.sequences == 0) {
     return fail({"--unlabelled: recipe " + options.recipe +
@@ -158,7 +158,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_train(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TrainFlags>();
   CLI::App* verb = app.add_subcommand("train", "Train a model on your own motion");
   add_manifest_options(*verb, options->data)->required();
   verb->add_option("-o,--output", options->output, "The model file to write")->required();

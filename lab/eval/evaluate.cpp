@@ -5,9 +5,9 @@
 #include <optional>
 #include <set>
 
-#include "base/names.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "eval/arrival.h"
 #include "eval/disturbances.h"
 #include "eval/motion_metrics.h"
@@ -19,6 +19,8 @@
 #include "eval/systems/mean_posture.h"
 #include "eval/systems/model_system.h"
 #include "eval/systems/recorded.h"
+#include "takes/load_takes.h"
+#include "takes/manifest.h"
 #include "train/persons.h"
 
 namespace panache {

@@ -13,6 +13,7 @@
 #include "eval/report.h"
 #include "eval/system.h"
 #include "eval/systems/table.h"
+#include "takes/manifest.h"
 #include "train/trainer.h"
 
 namespace panache {

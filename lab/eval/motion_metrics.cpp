@@ -7,6 +7,7 @@
 #include "clip/clip.h"
 #include "eval/metrics.h"
 #include "learn/samples.h"
+#include "takes/load_takes.h"
 
 namespace panache {
 namespace {

@@ -13,7 +13,7 @@
 #include "eval/joint_limits.h"
 #include "eval/metrics.h"
 #include "eval/motion_metrics.h"
-#include "learn/manifest.h"
+#include "takes/manifest.h"
 #include "learn/take.h"
 
 namespace panache {

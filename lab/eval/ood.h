@@ -8,7 +8,7 @@
 #include "base/result.h"
 #include "eval/metrics.h"
 #include "eval/shot.h"
-#include "learn/signature.h"
+#include "takes/signature.h"
 #include "eval/system.h"
 #include "learn/take.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/parallel.h"
-#include "learn/signature.h"
+#include "takes/signature.h"
 
 namespace panache {
 namespace {

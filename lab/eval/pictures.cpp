@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "eval/evaluate.h"
+#include "takes/load_takes.h"
 
 namespace panache {
 namespace {

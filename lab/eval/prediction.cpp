@@ -3,6 +3,7 @@
 #include "base/quat.h"
 #include "eval/motion_metrics.h"
 #include "style/play/pose_predictor.h"
+#include "takes/load_takes.h"
 
 namespace panache {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "pose/contacts.h"
 #include "pose/limb.h"
+#include "takes/load_takes.h"
 
 namespace panache {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "eval/discriminant.h"
 #include "eval/ood.h"
-#include "learn/signature.h"
+#include "takes/signature.h"
 #include "train/classifier.h"
 
 namespace panache {

@@ -1,6 +1,7 @@
 #include "eval/test_input.h"
 
 #include "base/parallel.h"
+#include "takes/load_takes.h"
 
 namespace panache {
 

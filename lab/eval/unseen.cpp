@@ -4,6 +4,7 @@
 #include "eval/report_numbers.h"
 #include "eval/systems/mean_posture.h"
 #include "eval/systems/model_system.h"
+#include "takes/manifest.h"
 
 namespace panache {
 namespace {

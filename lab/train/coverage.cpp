@@ -8,7 +8,6 @@
 #include <tuple>
 #include <utility>
 
-#include "base/names.h"
 #include "base/text.h"
 #include "train/removal.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "learn/manifest.h"
+#include "takes/manifest.h"
 #include "learn/samples.h"
 
 namespace panache {

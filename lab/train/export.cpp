@@ -5,6 +5,7 @@
 
 #include "style/model/model.h"
 #include "style/networks/networks.h"
+#include "takes/manifest.h"
 
 namespace panache {
 namespace {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "takes/manifest.h"
 #include "train/batches.h"
 #include "train/network.h"
 #include "train/trainer.h"

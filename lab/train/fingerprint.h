@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "learn/manifest.h"
+#include "takes/manifest.h"
 #include "learn/samples.h"
 #include "train/trainer.h"
 

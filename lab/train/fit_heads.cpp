@@ -12,19 +12,20 @@
 namespace panache {
 namespace {
 
-using torch::Tensor;
 constexpr auto kDouble = torch::kFloat64;
 
 // Windows up to this quantile of the leverage of a style's own windows are like them.
 constexpr double kAlike = 0.99;
 
-Tensor tensor_of(const panache::Tensor& from) { return torch::tensor(from.values).to(kDouble); }
+torch::Tensor tensor_of(const panache::Tensor& from) {
+  return torch::tensor(from.values).to(kDouble);
+}
 
 // Examples of standardised activations and of answers, with the weight of each.
 struct Examples {
-  Tensor seen;     // [rows][activations]
-  Tensor answers;  // [rows][outputs]
-  Tensor weights;  // [rows], with a sum of 1.
+  torch::Tensor seen;     // [rows][activations]
+  torch::Tensor answers;  // [rows][outputs]
+  torch::Tensor weights;  // [rows], with a sum of 1.
 };
 
 class HeadFitter {
@@ -49,7 +50,7 @@ class HeadFitter {
   }
 
   // Motion without styles, standardised for the networks. [rows][inputs]
-  void set_motion(const Tensor& windows) {
+  void set_motion(const torch::Tensor& windows) {
     motion_ = windows;
     motion_seen_ = standardised(windows);
   }
@@ -70,7 +71,7 @@ class HeadFitter {
  private:
   // answer = answers + (seen - middle) weights
   struct Solution {
-    Tensor middle, answer, weights, gram;
+    torch::Tensor middle, answer, weights, gram;
   };
 
   static BatchSettings undisturbed(BatchSettings batch) {
@@ -78,7 +79,7 @@ class HeadFitter {
     return batch;
   }
 
-  Tensor standardised(const Tensor& windows) const {
+  torch::Tensor standardised(const torch::Tensor& windows) const {
     return (pose_.activations(windows).to(kDouble) - mean_) / scale_;
   }
 
@@ -94,8 +95,8 @@ class HeadFitter {
     for (const int i : some) ++actions[action(i)];
     std::vector<double> weights;
     for (const int i : some) weights.push_back(1 / std::sqrt(actions[action(i)]));
-    const Tensor once = torch::tensor(weights, kDouble);
-    std::vector<Tensor> seen, answers, weight;
+    const torch::Tensor once = torch::tensor(weights, kDouble);
+    std::vector<torch::Tensor> seen, answers, weight;
     for (int copy = 0; copy <= settings_.copies; ++copy) {
       const Batch batch = copy == 0 ? plain_.plain(some) : disturbed_.disturbed(some, random_);
       seen.push_back(standardised(batch.inputs));
@@ -110,31 +111,31 @@ class HeadFitter {
   // The trained head's answers to other motion. Examples that are like the style's own do not
   // count.
   Examples guided_rows(int style, const Examples& own, const Solution& solution) const {
-    const auto leverage = [&](const Tensor& seen) {
-      const Tensor off = seen - solution.middle;
-      const Tensor inverse = torch::linalg_solve(ridged(solution.gram), off.t());
+    const auto leverage = [&](const torch::Tensor& seen) {
+      const torch::Tensor off = seen - solution.middle;
+      const torch::Tensor inverse = torch::linalg_solve(ridged(solution.gram), off.t());
       return (off * inverse.t()).sum(1);
     };
     const double limit = leverage(own.seen).quantile(kAlike).item<double>() * settings_.alike;
-    const Tensor unlike = (leverage(motion_seen_) / limit - 1).clamp(0, 1);
+    const torch::Tensor unlike = (leverage(motion_seen_) / limit - 1).clamp(0, 1);
     std::vector<int64_t> groups(static_cast<size_t>(pose_.shape().heads));
     groups[static_cast<size_t>(style)] = motion_.size(0);
-    const Tensor answers = pose_.forward(motion_, groups, nullptr).to(kDouble);
+    const torch::Tensor answers = pose_.forward(motion_, groups, nullptr).to(kDouble);
     return {motion_seen_, answers,
             unlike * (settings_.guided / static_cast<double>(motion_.size(0)))};
   }
 
-  Tensor ridged(const Tensor& gram) const {
+  torch::Tensor ridged(const torch::Tensor& gram) const {
     return gram + settings_.penalty * torch::eye(gram.size(0), kDouble);
   }
 
   Solution solve(const Examples& rows) const {
-    const Tensor weights = rows.weights.unsqueeze(1);
+    const torch::Tensor weights = rows.weights.unsqueeze(1);
     Solution out;
     out.middle = (rows.seen * weights).sum(0);
     out.answer = (rows.answers * weights).sum(0);
-    const Tensor seen = rows.seen - out.middle;
-    const Tensor weighed = seen * weights;
+    const torch::Tensor seen = rows.seen - out.middle;
+    const torch::Tensor weighed = seen * weights;
     out.gram = torch::mm(weighed.t(), seen);
     out.weights =
         torch::linalg_solve(ridged(out.gram), torch::mm(weighed.t(), rows.answers - out.answer));
@@ -144,22 +145,22 @@ class HeadFitter {
   // How much the answers to the style's own windows must grow so that they vary as much as those of
   // the real takes: a ridge regression answers with too little. [outputs] The same for the joints
   // of a region; legs and root move as they are learnt, because more of it makes feet slide.
-  Tensor gains(const Examples& own, const Tensor& answers) const {
-    const Tensor weights = own.weights.unsqueeze(1);
-    const auto variance = [&](const Tensor& values) {
-      const Tensor middle = (values * weights).sum(0);
+  torch::Tensor gains(const Examples& own, const torch::Tensor& answers) const {
+    const torch::Tensor weights = own.weights.unsqueeze(1);
+    const auto variance = [&](const torch::Tensor& values) {
+      const torch::Tensor middle = (values * weights).sum(0);
       return ((values - middle).square() * weights).sum(0);
     };
-    const Tensor real = variance(own.answers), ours = variance(answers);
+    const torch::Tensor real = variance(own.answers), ours = variance(answers);
     std::map<int, std::vector<int64_t>> groups;
     for (int64_t o = 0; o < kHipsHeight; ++o) {
       const Region region = region_of(static_cast<int>(o / 3));
       if (region != Region::legs) groups[static_cast<int>(region)].push_back(o);
     }
     groups[kRegions] = {kHipsHeight};
-    Tensor gain = torch::ones({own.answers.size(1)}, kDouble);
+    torch::Tensor gain = torch::ones({own.answers.size(1)}, kDouble);
     for (const auto& [group, outputs] : groups) {
-      const Tensor list = torch::tensor(outputs);
+      const torch::Tensor list = torch::tensor(outputs);
       const double wanted =
           std::sqrt(real.index_select(0, list).sum().item<double>() /
                     std::max(ours.index_select(0, list).sum().item<double>(), 1e-12));
@@ -171,21 +172,21 @@ class HeadFitter {
 
   // Keeps the combinations of activations that explain most of the answers.
   void write(int style, const Examples& own, const Solution& solution) const {
-    const Tensor spread =
+    const torch::Tensor spread =
         torch::mm(solution.weights.t(), torch::mm(solution.gram, solution.weights));
     const auto [values, vectors] = torch::linalg_eigh(spread);
     const int64_t outputs = vectors.size(1);
     const int64_t rank = std::min<int64_t>(settings_.rank, outputs);
-    const Tensor main = vectors.slice(1, outputs - rank);  // [outputs][rank]
-    const Tensor reduce = torch::mm(solution.weights, main) / scale_.unsqueeze(1);
-    const Tensor middle = mean_ + solution.middle * scale_;
-    const Tensor answers =
+    const torch::Tensor main = vectors.slice(1, outputs - rank);  // [outputs][rank]
+    const torch::Tensor reduce = torch::mm(solution.weights, main) / scale_.unsqueeze(1);
+    const torch::Tensor middle = mean_ + solution.middle * scale_;
+    const torch::Tensor answers =
         solution.answer + torch::mm(torch::mm(own.seen - solution.middle, solution.weights),
                                     torch::mm(main, main.t()));
-    const Tensor head = main.t() * gains(own, answers).unsqueeze(0);
+    const torch::Tensor head = main.t() * gains(own, answers).unsqueeze(0);
     // The reduction is zero for the mean of the windows, in the precision of the file.
     const panache::Tensor weights = to_tensor(reduce, true);
-    const Tensor rounded =
+    const torch::Tensor rounded =
         torch::tensor(weights.values).to(kDouble).view({reduce.size(0), reduce.size(1)});
     const std::string number = std::to_string(style);
     model_.tensors["pose.reduce." + number + ".weight"] = weights;
@@ -200,9 +201,9 @@ class HeadFitter {
   panache::TensorFile& model_;
   Random random_;
   const BatchMaker plain_, disturbed_;
-  const Tensor mean_, scale_;              // Of the activations on motion of all kinds.
+  const torch::Tensor mean_, scale_;       // Of the activations on motion of all kinds.
   std::vector<std::vector<int>> samples_;  // [styles]
-  Tensor motion_, motion_seen_;
+  torch::Tensor motion_, motion_seen_;
 };
 
 }  // namespace

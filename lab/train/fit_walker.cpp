@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "base/quat.h"
-#include "learn/ridge.h"
+#include "learn/fit_style.h"
 #include "learn/take.h"
 #include "rig/canonical_body.h"
+#include "takes/load_takes.h"
 #include "train/gait_take.h"
 
 namespace panache {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 enum class Use { none, walk, run };
 
@@ -144,7 +142,7 @@ void add_frame(Ridge& fit, const Gait& gait, double phase, const Going& going,
   std::array<float, kTerms> terms;
   std::array<float, kWaves> waves;
   gait_terms(gait, going, terms);
-  gait_waves(static_cast<float>(std::remainder(phase, kTurn)), waves);
+  gait_waves(static_cast<float>(std::remainder(phase, kGaitCycle)), waves);
   std::array<double, kUnknowns> row;
   for (int k = 0; k < kUnknowns; ++k) {
     row[k] = static_cast<double>(waves[k / kTerms]) * static_cast<double>(terms[k % kTerms]);
@@ -165,7 +163,7 @@ void fit_coefficients(const std::vector<GaitTake>& takes, const GaitRules& rules
       const GaitFrame& frame = take.frames[f];
       add_frame(fit, gait, frame.phase, frame.going, frame.channels);
       const Going other = {frame.going.speed, -frame.going.turn, frame.going.acceleration};
-      add_frame(fit, gait, frame.phase + kTurn / 2, other, mirrored(frame.channels));
+      add_frame(fit, gait, frame.phase + kGaitCycle / 2, other, mirrored(frame.channels));
     }
   }
   std::vector<double> penalties(kUnknowns), before(size_t(kUnknowns) * kChannels);
@@ -254,9 +252,11 @@ void fit_contacts(const std::vector<GaitTake>& takes, const GaitRules& rules, Ga
   Ridge lands(2, 1), lifts(2, 1);
   const auto add = [&](Ridge& fit, const GaitTake& take, int f, int foot, double around) {
     // The change happened half a frame ago.
-    const double phase = (take.frames[f].phase + take.frames[f - 1].phase) / 2 - foot * kTurn / 2;
+    const double phase =
+        (take.frames[f].phase + take.frames[f - 1].phase) / 2 - foot * kGaitCycle / 2;
     const double speed = static_cast<double>(take.frames[f].going.speed - rules.reference);
-    fit.add(std::array{1.0, speed}, std::array{around + std::remainder(phase - around, kTurn)});
+    fit.add(std::array{1.0, speed},
+            std::array{around + std::remainder(phase - around, kGaitCycle)});
   };
   for (const GaitTake& take : takes) {
     const std::array<float, kFeet> ankles = {standing_ankle(*take.take, 0),
@@ -268,7 +268,7 @@ void fit_contacts(const std::vector<GaitTake>& takes, const GaitRules& rules, Ga
         const bool now = is_down(*take.take, f, foot, body, ankles[foot]);
         const bool before = is_down(*take.take, f - 1, foot, body, ankles[foot]);
         if (now && !before) add(lands, take, f, foot, 0.0);
-        if (before && !now) add(lifts, take, f, foot, kTurn / 2);
+        if (before && !now) add(lifts, take, f, foot, kGaitCycle / 2);
       }
     }
   }
@@ -315,7 +315,7 @@ FittedGait fit_gait(const std::vector<GaitTake>& takes, const GaitRules& rules, 
     for (int f = 0; f < take.take->frames(); ++f) {
       if (!is_usable(take, f, rules)) continue;
       const GaitFrame& frame = take.frames[f];
-      evaluate(out.gait, static_cast<float>(std::remainder(frame.phase, kTurn)), frame.going,
+      evaluate(out.gait, static_cast<float>(std::remainder(frame.phase, kGaitCycle)), frame.going,
                channels);
       for (int c = 3; c < kChannels; ++c) {
         const double error = static_cast<double>(channels[c] - frame.channels[c]);
@@ -337,7 +337,7 @@ Channels make_stand(const Gait& walk) {
   Channels stand{};
   for (int i = 0; i < kPhases; ++i) {
     Channels now;
-    evaluate(walk, static_cast<float>(kTurn * i / kPhases), {walk.reference, 0, 0}, now);
+    evaluate(walk, static_cast<float>(kGaitCycle * i / kPhases), {walk.reference, 0, 0}, now);
     const Channels other = mirrored(now);
     for (int c = 0; c < kChannels; ++c) stand[c] += (now[c] + other[c]) / (2 * kPhases);
   }

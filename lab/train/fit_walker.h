@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "learn/manifest.h"
+#include "takes/manifest.h"
 #include "walker/walker_model.h"
 
 namespace panache {

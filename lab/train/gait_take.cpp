@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/quat.h"
-#include "learn/ridge.h"
+#include "learn/fit_style.h"
 #include "rig/canonical_body.h"
 
 namespace panache {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kMinFrames = 12;
 
 // The four cubic B-splines that are not zero at `x`, in knots; the first has index floor(x).
@@ -97,7 +95,7 @@ std::vector<double> rough_phase(const Take& take) {
   const double to_circle = std::sqrt(spread / std::max(spread_rate, 1e-12));
   for (int f = 0; f < frames; ++f) {
     phase[f] = std::atan2(-rate[f] * to_circle, ahead[f]);
-    if (f) phase[f] -= kTurn * std::round((phase[f] - phase[f - 1]) / kTurn);
+    if (f) phase[f] -= kGaitCycle * std::round((phase[f] - phase[f - 1]) / kGaitCycle);
   }
   return phase;
 }
@@ -130,7 +128,7 @@ std::vector<GaitFrame> gait_frames(const Take& take) {
   const int frames = take.frames();
   if (frames < kMinFrames) return {};
   const std::vector<double> rough = rough_phase(take);
-  const double cycles = (rough.back() - rough.front()) / kTurn;
+  const double cycles = (rough.back() - rough.front()) / kGaitCycle;
   if (!(cycles > 0.8)) return {};
   const double cycle_frames = (frames - 1) / cycles;
   // Once more, with harmonics of the evened phase.
@@ -155,7 +153,7 @@ std::vector<GaitFrame> gait_frames(const Take& take) {
   std::vector<GaitFrame> out(frames);
   for (int f = 0; f < frames; ++f) {
     out[f].phase = phase[f];
-    out[f].cadence = slope_at(phase, f) * kTakeRate / kTurn;
+    out[f].cadence = slope_at(phase, f) * kTakeRate / kGaitCycle;
     out[f].going = {static_cast<float>(ahead[f]),
                     static_cast<float>(slope_at(facing, f) * kTakeRate),
                     static_cast<float>(slope_at(ahead, f) * kTakeRate)};

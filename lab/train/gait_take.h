@@ -1,12 +1,15 @@
 #pragma once
 // Gait analysis of a walking or running take: phase, path, and the body relative to the path.
 
+#include <numbers>
 #include <vector>
 
 #include "learn/take.h"
 #include "walker/gait.h"
 
 namespace panache {
+
+inline constexpr double kGaitCycle = 2 * std::numbers::pi;  // Radians.
 
 struct GaitFrame {
   double phase;    // Radians, increasing; at multiples of 2 pi the left ankle is furthest ahead.

@@ -16,7 +16,7 @@ constexpr int kNumbers = pose_feature_count(PoseLayout::positions);
 constexpr float kLabelSmoothing = 0.1f;
 // A style varies between bodies: changes within the style's own deviation plus this value are
 // equally likely. In output units.
-constexpr float kMinDeviation = 0.15f;
+constexpr float kMinStyleDeviation = 0.15f;
 constexpr float kLeanUnit = 0.1f, kFreeLean = 0.3f;   // Metres; units without penalty.
 constexpr float kFloorUnit = 0.05f, kFloor = 0.045f;  // Metres; no toe of the input is lower.
 constexpr double kTolerated = 0.4;                    // Share of a change that real takes agree on.
@@ -181,9 +181,9 @@ Guidance::Guidance(const SampleSet& set, const std::vector<int>& choice, const O
   }
   count.clamp_min_(1);
   style_mean_ = sum / count;
-  style_deviation_ =
-      ((squares / count - style_mean_.square()).clamp_min(0) + kMinDeviation * kMinDeviation)
-          .sqrt();
+  style_deviation_ = ((squares / count - style_mean_.square()).clamp_min(0) +
+                      kMinStyleDeviation * kMinStyleDeviation)
+                         .sqrt();
 
   signature_ = torch::zeros({styles_, kGuidedTraits});
   tolerance_ = torch::full({styles_, kGuidedTraits}, INFINITY);

@@ -8,7 +8,7 @@
 #include <torch/types.h>
 
 #include "learn/samples.h"
-#include "learn/signature.h"
+#include "takes/signature.h"
 #include "train/batches.h"
 #include "train/classifier.h"
 #include "train/network.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -14,6 +13,7 @@
 #include "learn/neutral_bank.h"
 #include "pose/features.h"
 #include "train/network.h"
+#include "train/persons.h"
 
 namespace panache {
 namespace {
@@ -27,12 +27,7 @@ constexpr double kKnown = 0.75;  // Quantile of the distances of neutral motion.
 constexpr int kMinFrames = 30;
 constexpr float kWidest = 127;
 
-std::string person_of(const Take& take) {
-  const std::string file = std::filesystem::path(take.row.path).stem().string();
-  return file.substr(0, file.find('_'));
-}
-
-bool is_gait(const Take& take) {
+bool is_walk_or_run(const Take& take) {
   const auto has = [&](const char* word) {
     return take.row.content.find(word) != std::string::npos;
   };
@@ -55,7 +50,7 @@ std::vector<Moment> draw_moments(const std::vector<Take>& takes, const std::vect
   std::map<int, double> frames, all;
   for (size_t t = 0; t < takes.size(); ++t) frames[people[t]] += takes[t].frames();
   const auto weight = [&](size_t t) {
-    return (is_gait(takes[t]) ? kGaitWeight : 1) / std::sqrt(frames[people[t]]);
+    return (is_walk_or_run(takes[t]) ? kGaitWeight : 1) / std::sqrt(frames[people[t]]);
   };
   for (size_t t = 0; t < takes.size(); ++t) {
     all[takes[t].row.set] += weight(t) * takes[t].frames();

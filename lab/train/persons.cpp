@@ -12,9 +12,9 @@
 #include "learn/fit_style.h"
 #include "learn/learn_person.h"
 #include "net/layer.h"
-#include "recipes/recipes.h"
+#include "recipes/recipe.h"
 #include "style/networks/networks.h"
-#include "style/stages/pose_change.h"
+#include "style/stages/shaping.h"
 #include "train/network.h"
 
 namespace panache {

@@ -6,7 +6,7 @@ namespace panache {
 namespace {
 
 constexpr int64_t kBody = 3 * kHumanJoints;  // The first features of a window: the current pose.
-constexpr float kUnit = 0.1f;                // Metres.
+constexpr float kPositionUnit = 0.1f;        // Metres.
 
 }  // namespace
 
@@ -20,7 +20,7 @@ torch::Tensor PositionLoss::operator()(const torch::Tensor& answers, const Batch
   const torch::Tensor bodies = now.view({-1, kHumanJoints, 3});
   const torch::Tensor made = styled_bodies(bodies, answers * output_scale_);
   const torch::Tensor shown = styled_bodies(bodies, batch.pose * output_scale_);
-  return ((made - shown) / kUnit).square().sum(2).mean();
+  return ((made - shown) / kPositionUnit).square().sum(2).mean();
 }
 
 }  // namespace panache

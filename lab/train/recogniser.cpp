@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kSteps = 4000, kBatch = 512;
 constexpr float kRate = 0.004f, kDecay = 0.3f, kNoise = 0.3f;
-constexpr float kNeutralShare = 0.35f;  // Of a batch.
-constexpr float kMinDeviation = 0.02f;  // Of a statistic.
+constexpr float kNeutralShare = 0.35f;     // Of a batch.
+constexpr float kMinRawDeviation = 0.02f;  // Of a statistic.
 
 // Rows of a class, by content, so that actions with many rows do not dominate.
 using Cells = std::vector<std::vector<std::vector<int64_t>>>;  // [classes][contents][rows]
@@ -82,7 +82,7 @@ Result<void> add_recognition(const std::vector<Take>& takes, uint64_t seed, Tens
   }
   const torch::Tensor raw = torch::cat(used);
   const torch::Tensor mean = raw.mean(0);
-  const torch::Tensor factor = 1 / (raw.std(0, false) + kMinDeviation);
+  const torch::Tensor factor = 1 / (raw.std(0, false) + kMinRawDeviation);
   const torch::Tensor all = ((raw - mean) * factor).clamp(-kFarthestStatistic, kFarthestStatistic);
 
   torch::Tensor weight = torch::zeros({count, static_cast<int64_t>(cells.size())});

@@ -6,11 +6,12 @@
 #include <mutex>
 #include <numeric>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/random.h"
 #include "style/restyle.h"
+#include "takes/load_takes.h"
 
 namespace panache {
 namespace {

@@ -8,10 +8,10 @@
 namespace panache {
 namespace {
 
-constexpr double kUnit = 0.2;      // m/s.
-constexpr double kStands = 0.3;    // m/s: a faster toe is not planted.
-constexpr double kLow = 0.05;      // Metres above the lowest toe of the sequence.
-constexpr double kNoSpeed = 0.02;  // m/s.
+constexpr double kSpeedUnit = 0.2;  // m/s.
+constexpr double kStands = 0.3;     // m/s: a faster toe is not planted.
+constexpr double kLow = 0.05;       // Metres above the lowest toe of the sequence.
+constexpr double kNoSpeed = 0.02;   // m/s.
 // Free change of the distance between standing feet, metres, and the unit of the excess.
 constexpr double kStance = 0.06, kStanceUnit = 0.1;
 constexpr double kStep = kClassifiedSpacing / kTakeRate;  // Seconds between instants.
@@ -53,7 +53,7 @@ torch::Tensor standing_loss(const torch::Tensor& in, const torch::Tensor& out,
   const torch::Tensor height = halfway(toes).select(3, 1);
   const torch::Tensor low = height - height.amin({1, 2}, true) < kLow;
   const torch::Tensor stands = (1 - before.square().sum(3).sqrt() / kStands).relu() * low;
-  const torch::Tensor moved = ((after - before).square().sum(3) + 1e-6).sqrt() / kUnit;
+  const torch::Tensor moved = ((after - before).square().sum(3) + 1e-6).sqrt() / kSpeedUnit;
   // While both feet stand, they keep their stance: a body at rest does not get a walk's legs.
   const auto apart = [](const torch::Tensor& both) {
     const torch::Tensor between = halfway(both.select(2, 0) - both.select(2, 1));

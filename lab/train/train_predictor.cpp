@@ -24,7 +24,7 @@ constexpr float kMinError = 0.003f;  // Metres.
 
 // Disturbance of the windows: as for the style networks, but with less jitter, which would hide the
 // velocities.
-constexpr float kScale = 0.08f, kTempo = 0.2f, kPosture = 0.02f;
+constexpr float kScale = 0.08f, kTempoDeviation = 0.2f, kPosture = 0.02f;
 constexpr float kMaxJitter = 0.001f;  // Metres; each window has a random share of it.
 
 struct Moment {
@@ -50,7 +50,7 @@ struct Borrowed {
   int first, last;  // Joints.
   int base;         // The parent that they are relative to.
 };
-constexpr Borrowed kUpperBody = {1, 12, 0}, kArms = {5, 12, 2};
+constexpr Borrowed kUpperBodyJoints = {1, 12, 0}, kArmJoints = {5, 12, 2};
 constexpr float kBorrows = 0.2f;    // Share of windows, for each of the two.
 constexpr float kReversed = 0.15f;  // Share that is played backwards.
 
@@ -186,11 +186,12 @@ class PredictorTraining {
       draw.mirrored = random.uniform() < 0.5f;
       if (disturbed) {
         draw.scale = 1 + kScale * random.normal();
-        draw.tempo = std::exp(kTempo * random.normal());
+        draw.tempo = std::exp(kTempoDeviation * random.normal());
         draw.jitter = kMaxJitter * random.uniform() * random.uniform();
         draw.reversed = random.uniform() < kReversed;
         const float borrows = random.uniform();
-        if (borrows < 2 * kBorrows) draw.borrowed = borrows < kBorrows ? &kUpperBody : &kArms;
+        if (borrows < 2 * kBorrows)
+          draw.borrowed = borrows < kBorrows ? &kUpperBodyJoints : &kArmJoints;
         draw.lender = moments[random.below(static_cast<uint32_t>(moments.size()))];
         for (float& offset : draw.posture) offset = kPosture * random.normal();
       }

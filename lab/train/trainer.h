@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/result.h"
-#include "learn/manifest.h"
+#include "takes/manifest.h"
 #include "learn/samples.h"
 #include "net/safetensors.h"
-#include "recipes/recipes.h"
+#include "recipes/recipe.h"
 #include "style/model/model.h"
 #include "train/coverage.h"
 #include "train/training_data.h"

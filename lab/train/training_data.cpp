@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/progress.h"
+#include "takes/load_takes.h"
 #include "train/matrix_products.h"
 
 namespace panache {

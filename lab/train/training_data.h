@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "learn/manifest.h"
+#include "takes/manifest.h"
 #include "learn/pairing.h"
 #include "learn/samples.h"
 #include "learn/take.h"

@@ -1,5 +1,4 @@
 #include "api/errors.h"
-#include "api/model_file.h"
 #include "api/objects.h"
 #include "api/options.h"
 #include "api/poses.h"

@@ -1,9 +1,8 @@
 #include "api/errors.h"
-#include "api/model_file.h"
 #include "api/objects.h"
 #include "api/options.h"
 #include "learn/style_file.h"
-#include "style/model/side.h"
+#include "style/model/model.h"
 #include "style/play/removal.h"
 
 using namespace panache;

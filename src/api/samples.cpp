@@ -3,8 +3,8 @@
 #include "api/errors.h"
 #include "api/objects.h"
 #include "api/poses.h"
-#include "learn/cycle.h"
-#include "recipes/recipes.h"
+#include "learn/pairing.h"
+#include "recipes/recipe.h"
 
 using namespace panache;
 using namespace panache::api;

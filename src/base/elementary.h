@@ -5,11 +5,15 @@
 //
 // The functions of double are the system's; nothing with guaranteed bits uses them.
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace panache {
+
 namespace elementary {
 
 inline constexpr double kHalfPi = 1.57079632679489661923;
@@ -99,5 +103,32 @@ inline float exponential(float x) {
 inline double sine(double x) { return std::sin(x); }
 inline double cosine(double x) { return std::cos(x); }
 inline double arc_tangent(double y, double x) { return std::atan2(y, x); }
+
+// Ways from one value to another: a smooth step, a list of values, a first-order filter.
+
+// Rises from 0 to 1 with `x`, with zero slope at both ends; constant beyond them.
+inline float smooth_step(float x) noexcept {
+  x = std::clamp(x, 0.0f, 1.0f);
+  return x * x * (3 - 2 * x);
+}
+
+// The value at the fractional index `at` of a non-empty list, linearly interpolated; clamped to the
+// first and last value.
+inline double between(const std::vector<double>& list, double at) {
+  const size_t a = std::min(static_cast<size_t>(std::max(at, 0.0)), list.size() - 1);
+  const size_t b = std::min(a + 1, list.size() - 1);
+  return std::lerp(list[a], list[b], at - static_cast<double>(a));
+}
+
+// The fraction of the distance to its target that a filter covers in `seconds`.
+inline float filter_gain(float seconds, float time_constant) noexcept {
+  return time_constant > 0 ? 1 - exponential(-seconds / time_constant) : 1.0f;
+}
+
+// Moves by the fraction `gain` towards `target`; within `near` of it, all the way.
+inline void approach(float& value, float target, float gain, float near) noexcept {
+  value += gain * (target - value);
+  if (std::abs(target - value) < near) value = target;
+}
 
 }  // namespace panache

@@ -64,4 +64,6 @@ bool is_finite(BasicVec3<T> a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
+inline constexpr double kGravity = 9.81;  // m/s^2
+
 }  // namespace panache

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/names.h"
+#include "base/text.h"
 #include "clip/fbx_document.h"
 #include "clip/motion_file.h"
 

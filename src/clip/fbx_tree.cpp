@@ -10,7 +10,7 @@
 #include <fast_float/fast_float.h>
 
 #include "base/inflate.h"
-#include "base/little_endian.h"
+#include "base/bytes.h"
 #include "clip/text_cursor.h"
 
 namespace panache {

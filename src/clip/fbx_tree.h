@@ -93,7 +93,7 @@ inline constexpr size_t kFbxArrayHeader = 12;       // Count, encoding, size.
 inline constexpr int kFbxWideVersion = 7500;        // From here on, binary headers have 64 bits.
 inline constexpr const char* kFbxNoWord = " \t\r\n\v\f,:;{}\"";  // Characters that end a word.
 
-// fbx_binary.cpp, fbx_text.cpp: fill the root of a tree.
+// fbx_parse.cpp: fill the root of a tree.
 Result<void> parse_fbx_binary(std::string_view bytes, const std::string& name, FbxNode& root);
 Result<void> parse_fbx_text(std::string_view text, const std::string& name, FbxNode& root);
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "base/little_endian.h"
+#include "base/bytes.h"
 
 namespace panache {
 namespace {

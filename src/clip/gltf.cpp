@@ -7,7 +7,6 @@
 #include "clip/deform_tree.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
-#include "clip/gltf_figure.h"
 
 namespace panache {
 namespace {

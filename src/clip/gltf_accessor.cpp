@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "base/little_endian.h"
+#include "base/bytes.h"
 #include "clip/text_cursor.h"
 
 namespace panache {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/file.h"
-#include "base/little_endian.h"
+#include "base/bytes.h"
 #include "clip/gltf_json.h"
 
 namespace panache {

@@ -68,7 +68,7 @@ bool read_gltf_matrices(const GltfContainer& container, int which, const std::st
 // The extension that packs a view of data, or null.
 const char* gltf_packing(const GltfPart& view);
 
-// Whether the file has packed data that can be decoded (meshopt.h).
+// Whether the file has packed data that can be decoded (MeshoptDecoder in gltf.h).
 bool has_packed_data(const GltfContainer& container);
 // Whether keys of its animations are packed.
 bool has_packed_motion(const GltfContainer& container);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/little_endian.h"
+#include "base/bytes.h"
 #include "clip/gltf_scales.h"
 
 namespace panache {

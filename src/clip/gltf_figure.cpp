@@ -1,9 +1,9 @@
-#include "clip/gltf_figure.h"
+#include "clip/gltf_encode.h"
 
 #include <algorithm>
 #include <initializer_list>
 
-#include "base/little_endian.h"
+#include "base/bytes.h"
 
 namespace panache {
 namespace {

@@ -57,7 +57,7 @@ class NodeReader {
     const GltfPart extras = part.member("extras");
     node.end = extras && extras.json().contains(kEndSite) && !part.member("children");
     for (const GltfPart& child : part.list("children")) add_child(child, which);
-    read_place(part, node);
+    read_transform(part, node);
   }
 
   void add_child(const GltfPart& part, size_t parent) {
@@ -73,7 +73,7 @@ class NodeReader {
     nodes_[parent].children.push_back(child);
   }
 
-  static void read_place(const GltfPart& part, GltfNode& node) {
+  static void read_transform(const GltfPart& part, GltfNode& node) {
     std::array<double, 3> translation = {0, 0, 0}, scale = {1, 1, 1};
     std::array<double, 4> rotation = {0, 0, 0, 1};
     std::array<double, 16> matrix = {};

@@ -114,7 +114,7 @@ void GltfScales::set_time(double seconds, double tolerance) {
   }
 }
 
-void GltfScales::place(size_t joint, std::span<const Quat> rotations) {
+void GltfScales::set_above(size_t joint, std::span<const Quat> rotations) {
   const int parent = document_.skeleton.joints[joint].parent;
   if (parent < 0) return;
   above_[joint] = above_[parent].below(rotations[parent], own_[parent].stretch);
@@ -124,13 +124,13 @@ void GltfScales::set_file_pose(double seconds, double tolerance, std::span<Quat>
   set_time(seconds, tolerance);
   for (size_t j = 0; j < rotations.size(); ++j) {
     rotations[j] = clip_rotation(rotations[j], own_[j].turn);
-    place(j, rotations);
+    set_above(j, rotations);
   }
 }
 
 void GltfScales::set_clip_pose(double seconds, double tolerance, std::span<const Quat> rotations) {
   set_time(seconds, tolerance);
-  for (size_t j = 0; j < rotations.size(); ++j) place(j, rotations);
+  for (size_t j = 0; j < rotations.size(); ++j) set_above(j, rotations);
 }
 
 int fill_clip(const GltfDocument& document, GltfAnimation& animation,

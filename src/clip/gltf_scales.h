@@ -34,7 +34,7 @@ class GltfScales {
   };
 
   void set_time(double seconds, double tolerance);
-  void place(size_t joint, std::span<const Quat> rotations);
+  void set_above(size_t joint, std::span<const Quat> rotations);
 
   const GltfDocument& document_;
   std::vector<Moving> tracks_;  // For nodes above joints, if they differ from the node's own scale.

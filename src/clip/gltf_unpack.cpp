@@ -4,8 +4,8 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "clip/gltf.h"
 #include "clip/gltf_json.h"
-#include "clip/meshopt.h"
 
 namespace panache {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <map>
 
-#include "clip/gltf_figure.h"
+#include "clip/gltf_encode.h"
 
 namespace panache {
 namespace {

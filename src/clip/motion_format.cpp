@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/file.h"
-#include "base/names.h"
+#include "base/text.h"
 #include "clip/acclaim.h"
 #include "clip/bvh.h"
 #include "clip/clip.h"

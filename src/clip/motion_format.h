@@ -9,7 +9,6 @@
 #include "base/quat.h"
 #include "base/result.h"
 #include "clip/motion_file.h"
-#include "clip/skinned_body.h"
 
 namespace panache {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <system_error>
 
-#include "base/little_endian.h"
+#include "base/bytes.h"
 #include "clip/text_cursor.h"
 
 namespace panache {

@@ -9,7 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "base/names.h"
 #include "base/text.h"
 
 namespace panache {

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 #include "learn/samples.h"
 
 namespace panache {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "clip/text_cursor.h"
-#include "learn/cycle.h"
+#include "learn/pairing.h"
 #include "retarget/retarget.h"
 #include "rig/canonical_body.h"
 

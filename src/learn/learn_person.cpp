@@ -4,8 +4,8 @@
 #include <array>
 #include <iterator>
 
-#include "learn/cycle.h"
-#include "learn/ridge.h"
+#include "learn/fit_style.h"
+#include "learn/pairing.h"
 #include "learn/samples.h"
 #include "rig/canonical_body.h"
 #include "style/networks/networks.h"
@@ -66,7 +66,7 @@ PersonMatch match_person(const NeutralBank& bank, const Take& whole) {
   PersonMatch out;
   out.takes = {std::move(twin.take), std::move(take)};
   out.pairings = pair_in_phase(out.takes, 1, 0, 0);
-  if (out.pairings.empty() || mean_cost(out.pairings) > kWorstPersonMatch) return {};
+  if (mean_cost(out.pairings) > kWorstPersonMatch) return {};
   return out;
 }
 

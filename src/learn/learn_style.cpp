@@ -7,13 +7,12 @@
 
 #include "base/parallel.h"
 #include "clip/text_cursor.h"
-#include "learn/cycle.h"
 #include "learn/find_gestures.h"
 #include "learn/fit_style.h"
 #include "learn/pairing.h"
 #include "learn/style_file.h"
 #include "learn/take.h"
-#include "recipes/recipes.h"
+#include "recipes/recipe.h"
 #include "style/networks/networks.h"
 
 namespace panache {
@@ -110,8 +109,8 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
   report.twin = pair.twin;
   report.instants = matched_instants(pairings, repeats ? pair.neutral_cycle : 0);
   const auto warn = [&](const std::string& text) { report.warnings.push_back(text); };
-  if (!pairings.empty()) report.match = mean_cost(pairings);
-  if (pairings.empty() || report.match > kNoMatch) {
+  report.match = mean_cost(pairings);
+  if (report.match > kNoMatch) {
     return Error{both + ": no match was found between them" +
                  (pairings.empty()
                       ? ", as the neutral one is too short for the styled one"
@@ -137,7 +136,7 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
   for (HumanPositions& body : exchanged[1].body) body = mirrored(body);
   const std::vector<Pairing> other = pair_takes(exchanged, {1}, {0});
   const bool is_mirrored =
-      !other.empty() && report.match > kNearlyEqual && mean_cost(other) < kMirrored * report.match;
+      report.match > kNearlyEqual && mean_cost(other) < kMirrored * report.match;
   if (is_mirrored) {
     warn(both +
          ": match better with left and right exchanged; record the action with the same hand or "

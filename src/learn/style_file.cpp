@@ -9,12 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "base/names.h"
-#include "base/state_bytes.h"
+#include "base/bytes.h"
 #include "base/text.h"
 #include "clip/text_cursor.h"
-#include "recipes/recipes.h"
-#include "style/model/side.h"
+#include "recipes/recipe.h"
+#include "style/model/model.h"
 
 namespace panache {
 namespace {

@@ -3,14 +3,11 @@
 // far a styled pose is from a real one.
 
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "base/quat.h"
-#include "base/result.h"
 #include "clip/clip.h"
-#include "learn/manifest.h"
 #include "pose/contacts.h"
 #include "pose/features.h"
 #include "pose/style_delta.h"
@@ -19,6 +16,20 @@
 namespace panache {
 
 inline constexpr double kTakeRate = 30;  // Frames a second of all takes, whatever the file's rate.
+
+// What a take shows; of takes for training, the row of a manifest.
+struct ManifestRow {
+  std::string path;     // On disk: relative paths start at the manifest's folder.
+  std::string style;    // After renaming; the neutral style is always "neutral".
+  std::string content;  // "walk", "raise-left-hand", ...
+  std::string take;
+  bool neutral = false;
+  bool test = false;          // Held out: never used for training.
+  int set = 0;                // A performer of a manifest: styles are compared within a set.
+  std::string manifest = {};  // The file of the manifest,
+  int line = 0;               // the line in it, for messages,
+  std::string person = {};    // and the performer; "" where the manifest names none.
+};
 
 struct Take {
   ManifestRow row;
@@ -36,26 +47,8 @@ struct Take {
 // The take of a clip on a character, from its first frame of motion; its row stays empty.
 Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout);
 
-// The first motion of a file that moves the humanoid, and its rig.
-struct RiggedClip {
-  Clip clip;
-  Rig rig;
-};
-Result<RiggedClip> load_clip(const std::string& path);
-
-// Reads one take.
-Result<Take> load_take(const ManifestRow& row, PoseLayout layout);
-
-// Reads all takes on all cores; `progress` gets the number done. Fails with the message of the
-// first file, in order of the rows, that cannot be read.
-Result<std::vector<Take>> load_takes(const std::vector<ManifestRow>& rows, PoseLayout layout,
-                                     const std::function<void(int)>& progress = {});
-
 // Fills `numbers` of a take in this layout.
 void write_numbers(PoseLayout layout, Take& take);
-
-// World positions of a frame of a take (Y up, metres).
-HumanPositions world_positions(const Take& take, int frame);
 
 struct PoseError {
   double degrees = 0;  // Mean over joints of the angle between local rotations.

@@ -96,8 +96,8 @@ constexpr std::array<Tile, sizeof...(k)> tiles_of(std::index_sequence<k...>) {
   return {tile<k + 1, kVectors>...};
 }
 constexpr auto kOneRow = one_row_tiles(std::make_index_sequence<kMaxVectors>());
-constexpr auto kNarrow = tiles_of<1>(std::make_index_sequence<kMaxRows>());
-constexpr auto kWide = tiles_of<kRowVectors>(std::make_index_sequence<kMaxRows>());
+constexpr auto kNarrowTiles = tiles_of<1>(std::make_index_sequence<kMaxRows>());
+constexpr auto kWideTiles = tiles_of<kRowVectors>(std::make_index_sequence<kMaxRows>());
 
 // Fewer outputs than lanes: one running sum in a register per output.
 void few_outputs(const Task& task, size_t row) {
@@ -125,8 +125,8 @@ void one_row(const Task& task, size_t row) {
 void some_rows(const Task& task, size_t row, size_t rows) {
   const size_t lanes = hn::Lanes(Floats()), vectors = task.outputs / lanes;
   size_t v = 0;
-  for (; v + kRowVectors <= vectors; v += kRowVectors) kWide[rows - 1](task, row, v * lanes);
-  for (; v < vectors; ++v) kNarrow[rows - 1](task, row, v * lanes);
+  for (; v + kRowVectors <= vectors; v += kRowVectors) kWideTiles[rows - 1](task, row, v * lanes);
+  for (; v < vectors; ++v) kNarrowTiles[rows - 1](task, row, v * lanes);
 }
 
 void dense_rows(const Rows<const float>& x, size_t inputs, const float* weights, const float* bias,
@@ -145,7 +145,7 @@ void dense_rows(const Rows<const float>& x, size_t inputs, const float* weights,
       }
       // If the outputs are not a multiple of the lanes, a last vector overlaps the one before; the
       // shared outputs are computed twice with the same bits.
-      if (task.outputs % lanes != 0) kNarrow[rows - 1](task, row, task.outputs - lanes);
+      if (task.outputs % lanes != 0) kNarrowTiles[rows - 1](task, row, task.outputs - lanes);
     }
     row += rows;
   }

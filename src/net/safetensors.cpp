@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/little_endian.h"
+#include "base/bytes.h"
 
 namespace panache {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 
 namespace panache {
 namespace {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/easing.h"
 #include "base/elementary.h"
-#include "pose/changed_joints.h"
 #include "pose/limb.h"
+#include "pose/style_delta.h"
 
 namespace panache {
 namespace {

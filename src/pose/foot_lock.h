@@ -7,7 +7,7 @@
 
 #include "base/vec.h"
 #include "pose/contacts.h"
-#include "rig/body_pose.h"
+#include "rig/humanoid.h"
 
 namespace panache {
 

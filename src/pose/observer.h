@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "pose/root_pose.h"
+#include "pose/features.h"
 #include "rig/posed_rig.h"
 
 namespace panache {

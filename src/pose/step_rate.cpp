@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "base/gravity.h"
+#include "base/vec.h"
 #include "clip/motion_file.h"
 #include "pose/contacts.h"
 #include "rig/body_motions.h"

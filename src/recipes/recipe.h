@@ -3,6 +3,8 @@
 // the live step and the evaluator read it here; each recipe is a folder next to this file.
 
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "pose/features.h"
@@ -48,5 +50,18 @@ struct Recipe {
 
   TrainingSettings training;
 };
+
+// The table of recipes.
+
+// All recipes, in the order of the table in recipe.cpp.
+std::span<const Recipe* const> recipes() noexcept;
+// The recipe of this name, or null.
+const Recipe* find_recipe(std::string_view name) noexcept;
+// The first in the table: the default for training.
+const Recipe& default_recipe() noexcept;
+
+// "panache or smith2019", for messages: all recipes, or those whose models can learn styles.
+std::string recipe_names();
+std::string learning_recipe_names();
 
 }  // namespace panache

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <span>
 
-#include "base/easing.h"
 #include "base/elementary.h"
-#include "pose/changed_joints.h"
 #include "pose/limb.h"
+#include "pose/style_delta.h"
 
 namespace panache {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "retarget/further_joints.h"
+#include "retarget/joint_pairs.h"
 #include "rig/canonical_body.h"
 #include "rig/posed_rig.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/easing.h"
 #include "base/elementary.h"
 #include "base/quat.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "clip/skinned_body.h"
+#include "clip/motion_file.h"
 #include "rig/body_surface.h"
 #include "rig/rig.h"
 

@@ -37,11 +37,10 @@ std::string note_passed_over(const MotionFile& file, const BodyMotions& body);
 // The first of them, or 0: the default if one motion of a file is wanted.
 int first_body_motion(const MotionFile& file, const RigOptions& options = {});
 
-// in_place.cpp: for games that move the character themselves.
-// Removes the horizontal path of the body of `clip`, which has the joints of `rig`: hips and joints
-// above them keep the horizontal position of the motion's first frame (Rig::first_frame()).
-// Heights, rotations and a calibration pose stay. Joints without animated translation stay
-// unchanged.
+// For games that move the character themselves. Removes the horizontal path of the body of `clip`,
+// which has the joints of `rig`: hips and joints above them keep the horizontal position of the
+// motion's first frame (Rig::first_frame()). Heights, rotations and a calibration pose stay. Joints
+// without animated translation stay unchanged.
 void stay_in_place(const Rig& rig, Clip& clip);
 
 }  // namespace panache

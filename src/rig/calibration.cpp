@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "clip/clip.h"
-#include "rig/file_space.h"
-#include "rig/sampled_joints.h"
+#include "rig/figures.h"
+#include "rig/joint_tree.h"
 
 namespace panache {
 namespace {

@@ -2,10 +2,13 @@
 // The persons in a skeleton: files of scenes hold several, often with the same joint names. Each
 // is some of its joints, as a skeleton of its own for the mapping.
 
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/quat.h"
 #include "base/result.h"
 #include "clip/clip.h"
 #include "rig/joint_tree.h"
@@ -43,5 +46,19 @@ std::vector<Figure> find_figures(const Clip& clip, std::span<const JointPosition
 
 // The joints of the figure with that root, and those above it.
 JointSubset figure_joints(const Skeleton& skeleton, int root);
+
+// The space of a motion file: its up axis and its unit.
+
+struct UsualUnit {
+  std::string_view name;  // "metres", "CMU units", ...
+  double metres;
+};
+
+// The likely unit for a scale inferred from the length of the legs (metres per file unit, for
+// canonical legs); nothing if none is close.
+std::optional<UsualUnit> usual_unit(double metres);
+
+// The rotation that turns `axis` ("+X", "-Z", ...) to +y; nothing if the name is invalid.
+std::optional<Quat> turn_up(std::string_view axis);
 
 }  // namespace panache

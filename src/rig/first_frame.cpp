@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "rig/sampled_joints.h"
+#include "rig/joint_tree.h"
 
 namespace panache {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "rig/joint_name.h"
-#include "rig/sampled_joints.h"
+#include "rig/joint_tree.h"
 
 namespace panache {
 namespace {

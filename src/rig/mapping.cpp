@@ -13,7 +13,7 @@ namespace {
 
 using enum HumanJoint;
 
-constexpr float kByTree = 0.95f, kByPlace = 0.7f, kByShape = 0.8f;
+constexpr float kByTree = 0.95f, kByPosition = 0.7f, kByShape = 0.8f;
 
 // Advice for feet that are not below a leg, as in game characters whose legs follow IK targets;
 // empty if all feet are below a shin.
@@ -174,7 +174,7 @@ class Mapper {
                    [&](int j) { return tree_.is_above(at(hips), j) && !tree_.is_above(j, top); });
     }
     put(head, found, "by its name", kCertain);
-    if (found < 0) find_head_by_place(top);
+    if (found < 0) find_head_by_position(top);
     if (at(head) >= 0 && at(neck) < 0) find_neck();
   }
   // The child that leads farthest up in the middle between the arms; -1 if none does. `most_off`:
@@ -226,7 +226,7 @@ class Mapper {
     }
     return best;
   }
-  void find_head_by_place(int top) {
+  void find_head_by_position(int top) {
     // Most rigs have it slightly higher than the canonical body, metres.
     constexpr float kUsual = 0.15f;
     const auto above_shoulders = [&](int joint) {
@@ -239,7 +239,7 @@ class Mapper {
     };
     const int found = usual_joint(chain_above(top), kUsual, above_shoulders);
     if (found < 0) return;
-    put(is_neck(names_[found]) ? neck : head, found, "in the chain above the chest", kByPlace);
+    put(is_neck(names_[found]) ? neck : head, found, "in the chain above the chest", kByPosition);
   }
   void find_neck() {
     const int top = torso_top();
@@ -301,7 +301,7 @@ class Mapper {
     const std::vector<int> chain = limb_chain(tree_, foot, farthest_below(tree_, foot));
     const int found = usual_joint(chain, kProportions.length[index(left_toes)],
                                   [&](int below_it) { return tree_.distance(foot, below_it); });
-    put(joint, found, "in the chain below " + name_of(foot_joint), kByPlace);
+    put(joint, found, "in the chain below " + name_of(foot_joint), kByPosition);
   }
 
   // Replaces detected joints by given ones.

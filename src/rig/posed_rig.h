@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/prefetch.h"
-#include "rig/body_pose.h"
+#include "rig/humanoid.h"
 #include "rig/rig.h"
 
 namespace panache {

@@ -9,11 +9,10 @@
 #include "rig/calibration.h"
 #include "rig/doubtful.h"
 #include "rig/figures.h"
-#include "rig/file_space.h"
 #include "rig/followers.h"
+#include "rig/joint_tree.h"
 #include "rig/mapping.h"
 #include "rig/posed_rig.h"
-#include "rig/sampled_joints.h"
 #include "rig/whole_body.h"
 
 namespace panache {

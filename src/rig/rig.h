@@ -11,7 +11,6 @@
 #include "base/quat.h"
 #include "base/result.h"
 #include "clip/clip.h"
-#include "rig/body_pose.h"
 #include "rig/calibration.h"
 #include "rig/followers.h"
 #include "rig/humanoid.h"

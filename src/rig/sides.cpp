@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "rig/sampled_joints.h"
+#include "rig/joint_tree.h"
 
 namespace panache {
 namespace {

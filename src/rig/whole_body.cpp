@@ -5,8 +5,8 @@
 
 #include "rig/humanoid.h"
 #include "rig/joint_name.h"
+#include "rig/joint_tree.h"
 #include "rig/limbs.h"
-#include "rig/sampled_joints.h"
 
 namespace panache {
 namespace {

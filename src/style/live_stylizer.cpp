@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "base/state_bytes.h"
+#include "base/bytes.h"
 
 namespace panache {
 

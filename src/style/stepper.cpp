@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 #include "pose/contacts.h"
 
 namespace panache {

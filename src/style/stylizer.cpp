@@ -5,7 +5,7 @@
 #include <cassert>
 #include <optional>
 
-#include "base/state_bytes.h"
+#include "base/bytes.h"
 
 namespace panache {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "style/model/side.h"
+#include "style/model/model.h"
 #include "style/stages/gesture_player.h"
 
 namespace panache {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 
 namespace panache {
 namespace {

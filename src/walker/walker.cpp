@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/gravity.h"
+#include "base/vec.h"
 #include "pose/contacts.h"
 #include "rig/canonical_body.h"
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "base/names.h"
 #include "base/text.h"
 
 namespace panache {

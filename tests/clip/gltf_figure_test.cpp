@@ -1,6 +1,6 @@
 // The skin and the mesh of GLB files that are made of joints alone.
 
-#include "clip/gltf_figure.h"
+#include "clip/gltf_encode.h"
 
 #include <set>
 

@@ -6,11 +6,12 @@
 #include <map>
 
 #include "clip/bvh.h"
-#include "learn/manifest.h"
 #include "learn/pairing.h"
 #include "learn/samples.h"
 #include "learn/take.h"
 #include "make_clip.h"
+#include "takes/load_takes.h"
+#include "takes/manifest.h"
 #include "temporary_folder.h"
 #include "use_motion.h"
 

@@ -1,4 +1,4 @@
-#include "learn/cycle.h"
+#include "learn/pairing.h"
 
 #include <cmath>
 

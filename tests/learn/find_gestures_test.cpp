@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 #include "learn/learn_style.h"
 #include "learn/style_file.h"
 #include "make_walks.h"

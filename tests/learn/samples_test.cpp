@@ -11,7 +11,7 @@
 #include "make_model.h"
 #include "pose/features.h"
 #include "style/networks/networks.h"
-#include "style/stages/pose_change.h"
+#include "style/stages/shaping.h"
 
 namespace panache {
 namespace {

@@ -14,6 +14,8 @@
 #include "base/random.h"
 #include "learn/samples.h"
 #include "style/networks/networks.h"
+#include "takes/load_takes.h"
+#include "takes/manifest.h"
 #include "walker/walker.h"
 
 using namespace panache;

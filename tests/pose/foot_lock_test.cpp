@@ -1,6 +1,6 @@
-#include "pose/changed_joints.h"
 #include "pose/foot_lock.h"
 #include "pose/limb.h"
+#include "pose/style_delta.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "make_clip.h"
-#include "pose/close_loop.h"
-#include "rig/body_pose.h"
 #include "pose/observer.h"
+#include "rig/humanoid.h"
 
 namespace panache {
 namespace {

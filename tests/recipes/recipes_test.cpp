@@ -1,6 +1,6 @@
 // What every recipe of the table promises, a toy among them.
 
-#include "recipes/recipes.h"
+#include "recipes/recipe.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rig/file_space.h"
+#include "rig/figures.h"
 #include "rig/made_up.h"
 #include "rig/posed_rig.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "make_clip.h"
-#include "rig/file_space.h"
+#include "rig/figures.h"
 #include "rig/humanoid.h"
 #include "rig/joint_name.h"
 #include "rig/made_up.h"

@@ -1,9 +1,9 @@
-#include "style/stages/floor.h"
+#include "style/stages/foot_stance.h"
 
 #include <gtest/gtest.h>
 
 #include "make_clip.h"
-#include "pose/changed_joints.h"
+#include "pose/style_delta.h"
 #include "rig/posed_rig.h"
 
 namespace panache {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "pose/style_delta.h"
 #include "posed_body.h"
-#include "pose/changed_joints.h"
 
 namespace panache {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "pose/limb.h"
+#include "pose/style_delta.h"
 #include "posed_body.h"
 #include "style/stages/arms_clear.h"
-#include "pose/limb.h"
-#include "pose/changed_joints.h"
 #include "style/stages/legs_apart.h"
 
 namespace panache {

@@ -1,7 +1,7 @@
 // Sides of styles: a mirrored style is the mirror image of what the style makes of the mirrored
 // input.
 
-#include "style/model/side.h"
+#include "style/model/model.h"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 #include "retarget/reference_pose.h"
 #include "retarget/retarget.h"
 #include "rig/body_mesh.h"
-#include "rig/file_space.h"
+#include "rig/figures.h"
 #include "style/play/removal.h"
 
 namespace panache::web {

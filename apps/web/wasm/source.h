@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "clip/motion_file.h"
 #include "rig/rig.h"
-#include "style/play/clip_head.h"
+#include "style/play/play_clip.h"
 #include "walker/walker.h"
 
 namespace panache::web {

@@ -101,9 +101,9 @@ function strength() {
       name, colour: colour(s),
       points: keys.map((at) => [Number(at), system.strength[at]?.[key]]).filter(([, value]) => isNumber(value)),
     })).filter(({ points }) => points.length);
-    const places = made.flatMap(({ points }) => points.map(([x]) => x)), real = report.real[key];
+    const strengths = made.flatMap(({ points }) => points.map(([x]) => x)), real = report.real[key];
     return !made.length || !isNumber(real) ? made : [...made, { name: 'real takes', colour: '#8a8a8a',
-      points: [[Math.min(...places), real], [Math.max(...places), real]] }];
+      points: [[Math.min(...strengths), real], [Math.max(...strengths), real]] }];
   };
   const plots = [['Style recognised', 'share of windows', 'style_accuracy'],
     ['Content kept', 'share of windows', 'content_accuracy'], ['Jerk', 'ratio to real takes', 'jerk_ratio'],

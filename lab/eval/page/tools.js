@@ -136,10 +136,10 @@ const rect = (x, y, width, height, fill, rx = 0) => shape('rect', { x, y, width,
 const label = (x, y, text, size, { fill = '#222222', anchor = 'start', bold = false, up = false } = {}) =>
   shape('text', { x, y, fill, 'font-size': size, 'text-anchor': anchor, 'font-weight': bold ? 600 : 400,
     ...(up ? { transform: `rotate(-90 ${x} ${y})` } : {}) }, text);
-function drawing(what, width, height, shapes, wide) {
+function drawing(what, width, height, shapes, fullWidth) {
   const svg = shape('svg', { viewBox: `0 0 ${width} ${height}`, width, height, role: 'img', 'aria-label': what });
   svg.append(...shapes);
-  return make('figure', { class: wide ? 'wide' : 'plot' }, svg);
+  return make('figure', { class: fullWidth ? 'wide' : 'plot' }, svg);
 }
 function ticksOf(low, high, about) {
   const raw = (high - low) / about;

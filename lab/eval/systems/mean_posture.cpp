@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "learn/samples.h"
-#include "recipes/recipes.h"
+#include "recipes/recipe.h"
 #include "style/stages/strengths.h"
+#include "takes/manifest.h"
 
 namespace panache {
 namespace {

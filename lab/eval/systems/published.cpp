@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/names.h"
+#include "base/text.h"
 #include "eval/systems/holden2017/holden2017.h"
 #include "eval/systems/xia2015/xia2015.h"
 #include "eval/systems/yumer2016/yumer2016.h"

@@ -6,9 +6,10 @@
 #include <set>
 
 #include "base/csv.h"
-#include "base/names.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "eval/motion_metrics.h"
+#include "takes/manifest.h"
 
 namespace panache {
 namespace {

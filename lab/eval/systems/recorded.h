@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "eval/system.h"
+#include "takes/manifest.h"
 
 namespace panache {
 

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 #include "eval/motion_metrics.h"
 
 namespace panache {

@@ -9,6 +9,7 @@
 #include "base/result.h"
 #include "eval/system.h"
 #include "learn/pairing.h"
+#include "takes/manifest.h"
 
 namespace panache {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "style/stages/pose_change.h"
+#include "style/stages/shaping.h"
 
 namespace panache {
 

@@ -13,10 +13,10 @@
 #include "base/result.h"
 #include "net/mlp.h"
 #include "pose/features.h"
+#include "pose/style_delta.h"
 #include "recipes/recipe.h"
 #include "style/model/gesture.h"
 #include "style/model/person.h"
-#include "pose/style_delta.h"
 
 namespace panache {
 
@@ -198,5 +198,20 @@ std::vector<std::string> split_lines(std::string_view text);
 inline constexpr const char* kDirection = "direction";
 inline constexpr const char* kRemove = "remove";
 inline constexpr const char* kAnyStyle = "any";
+
+// Sides of styles. A style that was captured from one performer has a side: a limp has a leg. Side
+// 1 is as captured, -1 its mirror image, and 0 the symmetric mean of both.
+
+// Whether `phrase` can be StyleInfo::side: empty, or words of which exactly one is "left" or
+// "right", such as "left leg" or "to the right".
+Result<void> check_side_phrase(std::string_view phrase);
+
+// Fails with a message if the model's styles have no sides, because they share a last layer.
+Result<void> check_has_sides(const Model& model);
+
+// The side of a style that a word names: "captured" or "mirrored", or, if StyleInfo::side tells
+// what was captured, "left" or "right". Fails for other words, and as check_has_sides(). `style` is
+// an index in the model.
+Result<float> find_side(const Model& model, int style, std::string_view word);
 
 }  // namespace panache

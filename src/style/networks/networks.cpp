@@ -4,7 +4,6 @@
 #include <cassert>
 
 #include "pose/features.h"
-#include "style/networks/networks_scratch.h"
 #include "style/stages/strengths.h"
 
 namespace panache {

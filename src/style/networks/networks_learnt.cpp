@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/easing.h"
-#include "style/networks/networks_scratch.h"
+#include "base/elementary.h"
+#include "style/networks/networks.h"
 #include "style/stages/strengths.h"
 
 namespace panache {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/elementary.h"
-#include "style/networks/networks_scratch.h"
+#include "style/networks/networks.h"
 #include "style/stages/strengths.h"
 
 namespace panache {

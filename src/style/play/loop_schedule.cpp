@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "style/play/clip_head.h"
-
 namespace panache {
 namespace {
 

@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "clip/clip.h"
-#include "pose/changed_joints.h"
-#include "pose/close_loop.h"
 #include "pose/loop.h"
-#include "pose/pose_distance.h"
-#include "style/play/clip_head.h"
+#include "pose/style_delta.h"
+#include "rig/humanoid.h"
 #include "style/stepper.h"
 
 namespace panache {

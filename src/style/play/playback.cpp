@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "base/easing.h"
-#include "pose/pose_distance.h"
+#include "base/elementary.h"
+#include "rig/humanoid.h"
 #include "style/play/input_ring.h"
-#include "style/stages/pose_change.h"
+#include "style/stages/shaping.h"
 
 namespace panache {
 namespace {

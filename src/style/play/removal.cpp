@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 #include "style/model/model.h"
 
 namespace panache {

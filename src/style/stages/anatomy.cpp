@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/easing.h"
 #include "base/elementary.h"
 #include "pose/contacts.h"
 #include "pose/limb.h"
@@ -188,16 +187,18 @@ class Limits {
   void keep_wrist(const Base& base, HumanJoint lower, Vec3 lower_direction, HumanJoint hand,
                   Quat hand_rotation, Vec3 local, float& share) {
     if (local == Vec3{}) return keep_unknown_wrist(lower, hand, share);
-    const Vec3 hand_way = in_heading(rotate(hand_rotation, local));
-    const Vec3 above = changed(base, lower, lower_direction), now = changed(base, hand, hand_way);
+    const Vec3 hand_direction = in_heading(rotate(hand_rotation, local));
+    const Vec3 above = changed(base, lower, lower_direction),
+               now = changed(base, hand, hand_direction);
     float wanted = 0;
     if (dot(above, now) < kSafeWrist) {
-      const float out = angle_between(above, now), in = angle_between(lower_direction, hand_way);
+      const float out = angle_between(above, now),
+                  in = angle_between(lower_direction, hand_direction);
       wanted = share_back(out - kWrist - kRangeMargin, in - kWrist - kRangeMargin);
     }
     ease(share, wanted);
     if (share == 0) return;
-    turn(base, now, changed(base, lower, hand_way), share, hand, hand);
+    turn(base, now, changed(base, lower, hand_direction), share, hand, hand);
   }
 
  private:

@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "pose/changed_joints.h"
 #include "pose/contacts.h"
-#include "rig/body_pose.h"
+#include "pose/style_delta.h"
+#include "rig/humanoid.h"
 #include "style/stages/limb_pushes.h"
 #include "style/stages/step_time.h"
 

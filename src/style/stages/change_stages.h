@@ -9,19 +9,17 @@
 #include "style/stages/anatomy.h"
 #include "style/stages/arms_clear.h"
 #include "style/stages/energy.h"
-#include "style/stages/flight.h"
 #include "style/stages/filter.h"
-#include "style/stages/floor.h"
+#include "style/stages/flight.h"
 #include "style/stages/foot_stance.h"
 #include "style/stages/hand_contacts.h"
 #include "style/stages/held_feet.h"
+#include "style/stages/input_watch.h"
 #include "style/stages/legs_apart.h"
 #include "style/stages/root_motion.h"
-#include "style/stages/input_watch.h"
 #include "style/stages/shaping.h"
-#include "style/stages/stage_clock.h"
-#include "style/stages/stage_work.h"
 #include "style/stages/stage_row.h"
+#include "style/stages/stage_work.h"
 
 namespace panache {
 

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "base/quat.h"
-#include "pose/changed_joints.h"
-#include "rig/body_pose.h"
+#include "pose/style_delta.h"
+#include "rig/humanoid.h"
 #include "style/stages/step_time.h"
 
 namespace panache {

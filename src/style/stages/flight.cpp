@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/easing.h"
-#include "base/gravity.h"
+#include "base/elementary.h"
+#include "base/vec.h"
 #include "pose/contacts.h"
 
 namespace panache {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 
-#include "rig/body_pose.h"
 #include "rig/humanoid.h"
 #include "style/stages/step_time.h"
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "base/easing.h"
-#include "pose/changed_joints.h"
+#include "base/elementary.h"
 #include "pose/limb.h"
+#include "pose/style_delta.h"
 #include "style/stages/strengths.h"
 
 namespace panache {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "pose/changed_joints.h"
 #include "pose/contacts.h"
+#include "pose/style_delta.h"
 #include "style/stages/step_time.h"
 
 namespace panache {

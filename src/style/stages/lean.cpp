@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/easing.h"
-#include "pose/changed_joints.h"
+#include "base/elementary.h"
+#include "pose/style_delta.h"
 
 namespace panache {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 #include "pose/limb.h"
 
 namespace panache {

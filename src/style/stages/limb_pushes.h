@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 #include "pose/limb.h"
 #include "style/stages/step_time.h"
 

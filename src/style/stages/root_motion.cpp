@@ -51,10 +51,10 @@ void RootMotion::step(const StyleDelta& delta, float gate, const Observer& obser
   // Each term is exactly zero without a style.
   const float share = gate * travel * travel * delta.velocity_forward * speed /
                       (speed * speed + kSlowSpeed * kSlowSpeed);
-  const Vec3 way = observer.now().root.position - observer.last_root().position;
-  drift_ += rotate(rotation_y(turn_), way) - way;
+  const Vec3 path = observer.now().root.position - observer.last_root().position;
+  drift_ += rotate(rotation_y(turn_), path) - path;
   const float max = speed > 0 ? kMaxStretched : 0.0f;  // Backwards, or the way would not close.
-  drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMaxShortened, max);
+  drift_ += rotate(rotation_y(turn_), path) * std::clamp(share, -kMaxShortened, max);
   climb_.step(observer.now().world, drift_ + sway_, time);
 }
 
@@ -71,15 +71,15 @@ constexpr float kFollowSeconds = 0.15f;  // Time constant.
 }  // namespace
 
 void Climb::plant(Vec3 toe) noexcept {
-  const Vec3 way = {toe.x - plant_.x, 0, toe.z - plant_.z};
-  const float far = length(way), climb = toe.y - plant_.y;
+  const Vec3 along = {toe.x - plant_.x, 0, toe.z - plant_.z};
+  const float far = length(along), climb = toe.y - plant_.y;
   if (planted_ && far < kNearPlants) return;
   const Vec3 last = slope_;
   const bool known = last != Vec3{};
   const bool climbs = planted_ && std::abs(climb) > (known ? kStillClimbs : kClimbs);
   slope_ = {};
   if (climbs && (known || climb * climb_ > 0)) {
-    slope_ = way * (std::clamp(climb / far, -kSteepest, kSteepest) / far);
+    slope_ = along * (std::clamp(climb / far, -kSteepest, kSteepest) / far);
     // The step before was on this slope already.
     if (!known) wanted_ += dot(before_, slope_);
   }

@@ -8,7 +8,7 @@
 #include "pose/contacts.h"
 #include "pose/observer.h"
 #include "pose/style_delta.h"
-#include "rig/body_pose.h"
+#include "rig/humanoid.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
 

@@ -3,13 +3,28 @@
 
 #include <array>
 
+#include "base/quat.h"
 #include "pose/style_delta.h"
-#include "rig/body_pose.h"
+#include "rig/humanoid.h"
+#include "style/model/predictor_network.h"
 #include "style/stages/root_motion.h"
 #include "style/stages/shape.h"
 #include "style/stages/step_time.h"
 
 namespace panache {
+
+// Applies a style's change to a body.
+
+// World rotation that the change applies to a joint, in the heading frame.
+Quat joint_rotation(const StyleDelta& change, int joint) noexcept;
+// The same for all joints.
+std::array<Quat, kHumanJoints> joint_rotations(const StyleDelta& change) noexcept;
+
+// The canonical body (body frame, metres) with the change's rotations and hips height.
+HumanPositions change_body(const HumanPositions& body, const StyleDelta& change) noexcept;
+
+// The change from the body `before` to the body `after`, both canonical.
+BodyChange change_between(const PredictedPose& before, const PredictedPose& after) noexcept;
 
 // Has no effect at all while the shape is Shape{}.
 class Shaping {

@@ -5,14 +5,13 @@
 #include <array>
 #include <cmath>
 
-#include "pose/changed_joints.h"
 #include "pose/contacts.h"
 #include "pose/observer.h"
 #include "pose/style_delta.h"
 #include "style/model/gesture.h"
+#include "style/stages/arms_clear.h"
 #include "style/stages/root_motion.h"
 #include "style/stages/shape.h"
-#include "style/stages/arms_clear.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/easing.h"
+#include "base/elementary.h"
 #include "rig/humanoid.h"
 
 namespace panache {

@@ -5,6 +5,7 @@
 #include "eval/toy_system/toy_system.h"
 #include "make_model.h"
 #include "make_styles.h"
+#include "takes/manifest.h"
 #include "temporary_folder.h"
 #include "train/matrix_products.h"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "eval/make_swings.h"
+#include "takes/manifest.h"
 #include "train/matrix_products.h"
 
 namespace panache {

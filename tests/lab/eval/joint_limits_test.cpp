@@ -6,9 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "learn/manifest.h"
 #include "learn/take.h"
 #include "posed_body.h"
+#include "takes/load_takes.h"
+#include "takes/manifest.h"
 
 namespace panache {
 namespace {

@@ -7,6 +7,7 @@
 #include "known_recipes.h"
 #include "learn/make_takes.h"
 #include "learn/samples.h"
+#include "takes/manifest.h"
 
 namespace panache {
 namespace {

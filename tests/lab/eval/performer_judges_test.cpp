@@ -7,6 +7,8 @@
 #include "eval/performer_judges.h"
 #include "learn/make_takes.h"
 #include "make_styled_takes.h"
+#include "takes/load_takes.h"
+#include "takes/manifest.h"
 #include "train/matrix_products.h"
 
 namespace panache {

@@ -8,7 +8,7 @@
 
 #include "base/file.h"
 #include "eval/make_report.h"
-#include "learn/signature.h"
+#include "takes/signature.h"
 #include "temporary_folder.h"
 
 namespace panache {

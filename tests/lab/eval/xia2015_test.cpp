@@ -9,6 +9,7 @@
 #include "known_recipes.h"
 #include "learn/samples.h"
 #include "learn/take.h"
+#include "takes/manifest.h"
 
 namespace panache {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "eval/make_swings.h"
 #include "make_styles.h"
-#include "style/stages/pose_change.h"
+#include "style/stages/shaping.h"
 
 namespace panache {
 namespace {

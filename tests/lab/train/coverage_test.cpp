@@ -4,6 +4,7 @@
 
 #include "known_recipes.h"
 #include "make_styled_takes.h"
+#include "takes/manifest.h"
 #include "train/trainer.h"
 
 namespace panache {

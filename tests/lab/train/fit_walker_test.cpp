@@ -12,8 +12,10 @@
 
 #include "base/file.h"
 #include "clip/bvh.h"
-#include "learn/ridge.h"
+#include "learn/fit_style.h"
 #include "make_clip.h"
+#include "takes/load_takes.h"
+#include "takes/manifest.h"
 #include "train/gait_take.h"
 
 namespace panache {

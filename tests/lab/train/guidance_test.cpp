@@ -7,6 +7,7 @@
 #include "body_tensor.h"
 #include "known_recipes.h"
 #include "make_styled_takes.h"
+#include "takes/manifest.h"
 #include "temporary_folder.h"
 #include "train/classifier.h"
 #include "train/export.h"

@@ -7,7 +7,9 @@
 
 #include "known_recipes.h"
 #include "make_styled_takes.h"
-#include "style/stages/pose_change.h"
+#include "style/stages/shaping.h"
+#include "takes/load_takes.h"
+#include "takes/manifest.h"
 
 namespace panache {
 namespace {

@@ -13,7 +13,7 @@
 #include "posed_body.h"
 #include "rig/beyond_range.h"
 #include "rig/humanoid.h"
-#include "style/stages/pose_change.h"
+#include "style/stages/shaping.h"
 #include "train/matrix_products.h"
 #include "train/styled_bodies.h"
 

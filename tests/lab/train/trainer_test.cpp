@@ -9,6 +9,7 @@
 #include "known_recipes.h"
 #include "make_manifest.h"
 #include "style/networks/networks.h"
+#include "takes/manifest.h"
 #include "temporary_folder.h"
 #include "train/checkpoint.h"
 #include "train/export.h"

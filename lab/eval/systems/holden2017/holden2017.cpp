@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "eval/systems/whole_take.h"
 #include "rig/canonical_body.h"
+#include "takes/manifest.h"
 
 namespace panache {
 

@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <nanoflann.hpp>
 
-#include "recipes/recipes.h"
+#include "recipes/recipe.h"
 
 namespace panache::xia2015 {
 namespace {

@@ -7,7 +7,8 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "recipes/recipes.h"
+#include "recipes/recipe.h"
+#include "takes/manifest.h"
 
 namespace panache {
 namespace {

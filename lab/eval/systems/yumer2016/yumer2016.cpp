@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "eval/systems/whole_take.h"
+#include "takes/manifest.h"
 
 namespace panache {
 

@@ -2,6 +2,7 @@
 // A system as small as one can be: it bends the back forward, whatever the style.
 
 #include "eval/systems/table.h"
+#include "takes/manifest.h"
 
 namespace panache::test {
 

@@ -1,16 +1,20 @@
 #pragma once
-// Saves and restores a character's memory as bytes. Characters with the same history save the same
-// bytes: members are initialised and have no padding.
+// Numbers as bytes: a character's memory, saved and restored, and integers in binary files.
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 namespace panache {
+
+// Characters with the same history save the same bytes: members are initialised and have no
+// padding.
 
 template <class T>
 std::span<std::byte> bytes_of(std::vector<T>& numbers) {
@@ -72,6 +76,20 @@ void read_state(std::span<const std::byte> in, VisitAll&& visit_all) {
     std::copy_n(from, bytes.size(), bytes.begin());
     from += bytes.size();
   });
+}
+
+// Little-endian integers in binary files.
+
+// The integer in `bytes`, at most 8 of them.
+inline uint64_t little_endian(std::string_view bytes) {
+  uint64_t value = 0;
+  for (size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+// The lowest `size` bytes of `value`.
+inline void append_little_endian(uint64_t value, size_t size, std::string& out) {
+  for (size_t i = 0; i < size; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
 }
 
 }  // namespace panache

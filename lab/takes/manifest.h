@@ -5,21 +5,9 @@
 #include <vector>
 
 #include "base/result.h"
+#include "learn/take.h"
 
 namespace panache {
-
-struct ManifestRow {
-  std::string path;     // On disk: relative paths start at the manifest's folder.
-  std::string style;    // After renaming; the neutral style is always "neutral".
-  std::string content;  // "walk", "raise-left-hand", ...
-  std::string take;
-  bool neutral = false;
-  bool test = false;          // Held out: never used for training.
-  int set = 0;                // A performer of a manifest: styles are compared within a set.
-  std::string manifest = {};  // The file of the manifest,
-  int line = 0;               // the line in it, for messages,
-  std::string person = {};    // and the performer; "" where the manifest names none.
-};
 
 // A style to learn, and its names in manifests. Lists have the order of the model.
 struct StyleName {

@@ -1,4 +1,4 @@
-#include "learn/manifest.h"
+#include "takes/manifest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "learn/signature.h"
+#include "takes/signature.h"
 
 #include <algorithm>
 #include <cmath>

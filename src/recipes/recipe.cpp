@@ -1,8 +1,8 @@
-#include "recipes/recipes.h"
+#include "recipes/recipe.h"
 
 #include <vector>
 
-#include "base/names.h"
+#include "base/text.h"
 
 // The table. A recipe called NAME is a folder of that name which defines NAME_recipe(), and one
 // line here.

@@ -1,4 +1,4 @@
-#include "learn/manifest.h"
+#include "takes/manifest.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 #include "base/csv.h"
 #include "learn/style_file.h"
-#include "style/model/side.h"
+#include "style/model/model.h"
 
 namespace panache {
 

@@ -1,4 +1,4 @@
-#include "clip/fbx_curve.h"
+#include "clip/fbx_document.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,6 +6,7 @@
 #include <limits>
 
 namespace panache {
+
 namespace {
 
 // Bits of KeyAttrFlags.

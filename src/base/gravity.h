@@ -1,7 +1,0 @@
-#pragma once
-
-namespace panache {
-
-inline constexpr double kGravity = 9.81;  // m/s^2
-
-}  // namespace panache
