@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "pose/limb.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "rig/posed_rig.h"
 #include "walker/walker.h"
 

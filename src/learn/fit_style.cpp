@@ -93,7 +93,7 @@ constexpr double kTrusted = 0.99;
 struct Table {
   size_t rows = 0, activations = 0;
   std::vector<double> seen;     // [rows][activations]
-  std::vector<double> answers;  // [rows][kLearntOutputs]
+  std::vector<double> targets;  // [rows][kLearntOutputs]
 
   std::span<double> row(size_t r) { return {&seen[r * activations], activations}; }
 };
@@ -122,13 +122,13 @@ Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set
                              model->activation_scale()[f]);
       }
       for (int n = 0; n < StyleDelta::kSize; ++n) {
-        table.answers.push_back(set.target(i)[n] / model->output_scale()[n]);
+        table.targets.push_back(set.target(i)[n] / model->output_scale()[n]);
       }
-      table.answers.push_back(sample.log_rate);
+      table.targets.push_back(sample.log_rate);
       for (int foot = 0; foot < kFeet; ++foot) {
         const float p = networks.contact()[foot];
         const float unchanged = std::clamp(std::log(p / (1 - p)), -kSure, kSure);
-        table.answers.push_back((sample.contacts[foot] > 0.5f ? kSure : -kSure) - unchanged);
+        table.targets.push_back((sample.contacts[foot] > 0.5f ? kSure : -kSure) - unchanged);
       }
       ++table.rows;
     }
@@ -196,20 +196,20 @@ Tensor tensor(std::vector<int64_t> shape, const std::vector<double>& values, boo
 }
 
 // Stores a layer on standardised activations in the file as one on the activations themselves:
-// F16 weights, and a bias that makes the output for the activations `mean` exactly `answer`.
+// F16 weights, and a bias that makes the output for the activations `mean` exactly `output`.
 void put_layer(const std::string& key, const Model& model, const std::vector<double>& weights,
-               const std::vector<double>& mean, std::vector<double> answer, TensorFile& file) {
-  const size_t outputs = answer.size();
+               const std::vector<double>& mean, std::vector<double> output, TensorFile& file) {
+  const size_t outputs = output.size();
   std::vector<double> rounded(weights.size());
   for (size_t i = 0; i < weights.size(); ++i) {
     const size_t f = i / outputs;
     const double scale = model.activation_scale()[f];
     rounded[i] = from_half(to_half(static_cast<float>(weights[i] / scale)));
-    answer[i % outputs] -= rounded[i] * mean[f];
+    output[i % outputs] -= rounded[i] * mean[f];
   }
   const auto rows = static_cast<int64_t>(mean.size()), columns = static_cast<int64_t>(outputs);
   file.tensors[key + ".weight"] = tensor({rows, columns}, rounded, true);
-  file.tensors[key + ".bias"] = tensor({columns}, answer);
+  file.tensors[key + ".bias"] = tensor({columns}, output);
 }
 
 // The gate: the leverage of a window, z^T (S + penalty)^-1 z with S the covariance of the training
@@ -258,11 +258,11 @@ TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet&
                      std::span<const size_t> samples, double penalty, double strength) {
   assert(model->can_learn() && !samples.empty());
   Table table = make_table(model, set, samples);
-  for (double& answer : table.answers) answer *= strength;
+  for (double& target : table.targets) target *= strength;
   const std::vector<double> middle = centre(table.seen, table.activations);
-  const std::vector<double> answer = centre(table.answers, kLearntOutputs);
+  const std::vector<double> mean_target = centre(table.targets, kLearntOutputs);
   Ridge ridge(static_cast<int>(table.activations), kLearntOutputs);
-  ridge.add(table.seen, table.answers, 1 / double(table.rows));
+  ridge.add(table.seen, table.targets, 1 / double(table.rows));
   // The mean posture is not penalised: rows and targets are centred.
   const std::vector<double> weights = ridge.solve(std::vector<double>(table.activations, penalty));
   std::vector<double> mean;
@@ -272,7 +272,7 @@ TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet&
     mean.push_back(static_cast<float>(model->activation_mean()[f] + middle[f] * scale));
   }
   TensorFile file;
-  put_layer("head", *model, weights, mean, answer, file);
+  put_layer("head", *model, weights, mean, mean_target, file);
   file.tensors["mean"] = tensor({static_cast<int64_t>(mean.size())}, mean);
   put_gate(*model, table, ridge.gram(), mean, penalty, file);
   return file;
@@ -281,13 +281,13 @@ TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet&
 TensorFile fit_posture(const Model& model, const StyleDelta& change) {
   assert(model.can_learn());
   const size_t size = model.activation_count(), directions = std::min(kDirections, size);
-  std::vector<double> answer(kLearntOutputs), mean;
+  std::vector<double> output(kLearntOutputs), mean;
   std::array<float, StyleDelta::kSize> numbers;
   pack(change, numbers);
-  for (size_t n = 0; n < numbers.size(); ++n) answer[n] = numbers[n] / model.output_scale()[n];
+  for (size_t n = 0; n < numbers.size(); ++n) output[n] = numbers[n] / model.output_scale()[n];
   for (size_t f = 0; f < size; ++f) mean.push_back(model.activation_mean()[f]);
   TensorFile file;
-  put_layer("head", model, std::vector<double>(size * kLearntOutputs), mean, answer, file);
+  put_layer("head", model, std::vector<double>(size * kLearntOutputs), mean, output, file);
   file.tensors["mean"] = tensor({static_cast<int64_t>(size)}, mean);
   put_layer("gate", model, std::vector<double>(size * directions), mean,
             std::vector<double>(directions), file);

@@ -16,7 +16,7 @@ namespace {
 constexpr double kWorstPersonMatch = 0.6;  // As in learn_style.cpp.
 constexpr int kMaxTake = 300;              // Frames.
 constexpr size_t kMaxSamples = 1200;
-// The cost of a squared number of the person, in the variance of an axis' answers: what differs
+// The cost of a squared number of the person, in the variance of an axis' outputs: what differs
 // from one take to the next.
 constexpr double kNumberPenalty = 0.3;
 constexpr double kTempoUnit = 0.1;  // Logarithm of the rate that counts as much as 0.25 rad.
@@ -98,22 +98,22 @@ Result<LearntPerson> learn_person(const std::shared_ptr<const Model>& model,
   double variance = 0;
   for (size_t i = 0; i < count; i += step) {
     set.window(i, window);
-    std::vector<double> answers((StyleDelta::kSize + 1) * axes);
+    std::vector<double> outputs((StyleDelta::kSize + 1) * axes);
     for (size_t a = 0; a < axes; ++a) {
       PersonNumbers one{};
       one[a] = 1;
       networks.set_person(one);
       networks.forward(window);
-      const auto answer = in_units(*model, networks.pose(), double{networks.log_rate()});
-      for (size_t n = 0; n < answer.size(); ++n) {
-        answers[n * axes + a] = answer[n];
-        variance += answer[n] * answer[n] / static_cast<double>(axes);
+      const auto output = in_units(*model, networks.pose(), double{networks.log_rate()});
+      for (size_t n = 0; n < output.size(); ++n) {
+        outputs[n * axes + a] = output[n];
+        variance += output[n] * output[n] / static_cast<double>(axes);
       }
     }
     const Sample& sample = set.samples()[i];
     const auto target = in_units(*model, set.target(i), double{sample.log_rate});
-    ridge.add(answers, target);
-    rows.insert(rows.end(), answers.begin(), answers.end());
+    ridge.add(outputs, target);
+    rows.insert(rows.end(), outputs.begin(), outputs.end());
     targets.insert(targets.end(), target.begin(), target.end());
   }
   const std::vector<double> numbers =
@@ -124,9 +124,9 @@ Result<LearntPerson> learn_person(const std::shared_ptr<const Model>& model,
   }
   double left = 0, whole = 0;
   for (size_t n = 0; n < targets.size(); ++n) {
-    double answer = 0;
-    for (size_t a = 0; a < axes; ++a) answer += rows[n * axes + a] * numbers[a];
-    left += (targets[n] - answer) * (targets[n] - answer);
+    double output = 0;
+    for (size_t a = 0; a < axes; ++a) output += rows[n * axes + a] * numbers[a];
+    left += (targets[n] - output) * (targets[n] - output);
     whole += targets[n] * targets[n];
   }
   out.explained = whole > 0 ? 1 - left / whole : 0;

@@ -190,14 +190,14 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
     set.window(i, window);
     networks.forward(window);
     const Take& neutral = takes[sample.take];
-    const StyleDelta answer = recipe.to_change(networks.pose(), body_at(neutral, sample.frame),
-                                               root_at(neutral, sample.frame));
+    const StyleDelta predicted = recipe.to_change(networks.pose(), body_at(neutral, sample.frame),
+                                                  root_at(neutral, sample.frame));
     const auto error = [&](const StyleDelta& change) {
       const Take& styled = takes[sample.styled];
       return pose_error(styled, sample.styled_frame, neutral, sample.frame, change).cm /
              held_back.size();
     };
-    out.held_back_cm += error(answer);
+    out.held_back_cm += error(predicted);
     out.mean_posture_cm += error(unpack(mean));
     out.untouched_cm += error({});
   }

@@ -5,7 +5,7 @@
 
 #include "base/elementary.h"
 #include "pose/limb.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 
 namespace panache {
 namespace {

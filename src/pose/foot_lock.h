@@ -1,6 +1,7 @@
 #pragma once
 // Holds planted feet where they landed, with two-bone inverse kinematics, and lets them creep
-// slowly to where a style wants them. Causal: no look-ahead.
+// slowly to where a style wants them. Causal: no look-ahead. HeldFeet (style/stages) runs it in
+// each step.
 
 #include <array>
 #include <span>
@@ -48,7 +49,8 @@ class FootLock {
     Vec3 speed;   // m/s, without a jump in its velocity.
     Vec3 knee;    // Side of its knee, heading frame, unit; 0 if not moved.
   };
-  // Updates a foot whose toe is at `input` and, with the change but uncorrected, at `toe` (world).
+  // Plants, holds or releases a foot, setting its offset, which step() applies. Its toe is at
+  // `input` and, with the change but uncorrected, at `toe` (world).
   static void follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float ground,
                      Seconds time) noexcept;
 

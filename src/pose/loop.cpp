@@ -6,7 +6,7 @@
 #include "clip/text_cursor.h"
 #include "pose/limb.h"
 #include "pose/observer.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "rig/humanoid.h"
 #include "rig/posed_rig.h"
 

@@ -42,7 +42,7 @@ struct Recipe {
   // Mirrors left and right, in place. target[outputs]
   void (*mirror_target)(std::span<float> target);
   // The reverse of write_target(): the change that an output stands for. Allocates nothing.
-  StyleDelta (*to_change)(std::span<const float> answer, const HumanPositions& body,
+  StyleDelta (*to_change)(std::span<const float> output, const HumanPositions& body,
                           std::span<const float, kRootFeatures> root) noexcept;
   // Scale of each network output. [outputs] If null, targets are normalised to mean 0 and deviation
   // 1, and models store that mean too.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pose/contacts.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 
 namespace panache {
 

@@ -10,7 +10,7 @@
 #include "clip/clip.h"
 #include "pose/contacts.h"
 #include "pose/limb.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "retarget/ground.h"
 #include "retarget/reference_pose.h"
 #include "retarget/joint_pairs.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clip/clip.h"
+#include "rig/calibration.h"
 #include "rig/canonical_body.h"
 
 namespace panache {

@@ -6,7 +6,9 @@
 #include "base/prefetch.h"
 #include "pose/observer.h"
 #include "style/networks/change_source.h"
+#include "style/stages/change_stages.h"
 #include "style/stages/flight.h"
+#include "style/stages/step_time.h"
 #include "style/stages/window.h"
 #include "style/stylizer_options.h"
 

@@ -7,6 +7,7 @@
 #include "base/prefetch.h"
 #include "base/result.h"
 #include "style/networks/network_source.h"
+#include "style/stages/step_time.h"
 #include "style/stepper.h"
 #include "style/stylizer_options.h"
 

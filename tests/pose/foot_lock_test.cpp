@@ -1,6 +1,6 @@
 #include "pose/foot_lock.h"
 #include "pose/limb.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "make_clip.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "rig/posed_rig.h"
 #include "style/stages/lean.h"
 

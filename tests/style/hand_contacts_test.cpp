@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "posed_body.h"
 
 namespace panache {

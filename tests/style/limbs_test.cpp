@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "pose/limb.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "posed_body.h"
 #include "style/stages/arms_clear.h"
 #include "style/stages/legs_apart.h"

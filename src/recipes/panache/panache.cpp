@@ -9,9 +9,9 @@
 namespace panache {
 namespace {
 
-std::span<float, StyleDelta::kSize> numbers_of(std::span<float> answer) {
-  assert(answer.size() == StyleDelta::kSize);
-  return answer.first<StyleDelta::kSize>();
+std::span<float, StyleDelta::kSize> numbers_of(std::span<float> output) {
+  assert(output.size() == StyleDelta::kSize);
+  return output.first<StyleDelta::kSize>();
 }
 
 void write_target(const StyleDelta& change, const HumanPositions&,
@@ -23,10 +23,10 @@ void mirror_target(std::span<float> target) {
   pack(mirrored(unpack(numbers_of(target))), numbers_of(target));
 }
 
-StyleDelta to_change(std::span<const float> answer, const HumanPositions&,
+StyleDelta to_change(std::span<const float> output, const HumanPositions&,
                      std::span<const float, kRootFeatures>) noexcept {
-  assert(answer.size() == StyleDelta::kSize);
-  return unpack(answer.first<StyleDelta::kSize>());
+  assert(output.size() == StyleDelta::kSize);
+  return unpack(output.first<StyleDelta::kSize>());
 }
 
 // Units that give all parts of a change equal weight: 0.25 rad, 5 cm, 0.15 m/s, 0.6 rad/s.

@@ -42,10 +42,10 @@ void write_target(const StyleDelta& change, const HumanPositions& body,
 
 void mirror_target(std::span<float> target) { mirror_pose(PoseLayout::rotations, target); }
 
-StyleDelta to_change(std::span<const float> answer, const HumanPositions& body,
+StyleDelta to_change(std::span<const float> output, const HumanPositions& body,
                      std::span<const float, kRootFeatures> root) noexcept {
-  assert(answer.size() == AbsolutePose::kSize);
-  const AbsolutePose pose = unpack_pose(answer.first<AbsolutePose::kSize>());
+  assert(output.size() == AbsolutePose::kSize);
+  const AbsolutePose pose = unpack_pose(output.first<AbsolutePose::kSize>());
   StyleDelta change;
   std::array<Quat, kHumanJoints> before, after;
   canonical_frames(body, 0, before);

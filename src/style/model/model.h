@@ -36,7 +36,7 @@ struct StyleInfo {
   std::string source = {};     // The source of its motion,
   std::string licence = {};    // and its licence, for users; may be empty.
   std::string thumbnail = {};  // A picture, SVG on one line; may be empty.
-  std::string side = {};       // The captured side, "right leg", see side.h; may be empty.
+  std::string side = {};       // The captured side, "right leg", see find_side(); may be empty.
   std::string words = {};      // Other words for it, separated by spaces, "elderly aged"; may be
                                // empty.
   // Gestures a second in its takes, "0.25"; empty if unknown.
@@ -138,7 +138,7 @@ class Model {
     PackedLayer head;                 // [activations][kLearntOutputs]
     std::vector<float> mean;          // Mean of its examples' activations. [activations]
     PackedLayer gate;                 // [activations][directions]: principal coordinates,
-    std::vector<float> gate_weights;  // and the weight of each squared coordinate beyond `rest`.
+    std::vector<float> gate_weights;  // and the weight of each squared coordinate.
     float gate_residual = 0;          // Weight of a squared standardised difference from the mean.
   };
   size_t built_in() const { return styles_.size() - learnt_.size(); }

@@ -107,15 +107,15 @@ Result<void> Model::read_recognition(const TensorFile& file, const std::string& 
 }
 
 Result<void> Model::measure_scratch(const std::string& name) {
-  size_t answers = padded(kLearntOutputs);
+  size_t outputs = padded(kLearntOutputs);
   for (const Heads& heads : heads_) {
-    for (const PackedLayer& layer : heads.layers) answers = std::max(answers, layer.width());
+    for (const PackedLayer& layer : heads.layers) outputs = std::max(outputs, layer.width());
   }
   const bool reads_all = can_learn() || !reductions_.empty() || persons_;
   const size_t activations = padded(reads_all ? activation_count() : trunks_.outputs(kPose));
   size_t reduced = 0;
   for (const PackedLayer& layer : reductions_) reduced = std::max(reduced, layer.width());
-  size_t heads = 3 * activations + reduced + answers;
+  size_t heads = 3 * activations + reduced + outputs;
   if (persons_) {
     const size_t products = padded(persons_->head().inputs()),
                  width = persons_->reduction().width();
@@ -187,10 +187,10 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
 void Model::measure_stances() {
   if (!recipe_->style_heads || (built_in() > 0 && !gate_.present())) return;
   const auto mean_answer = [&](const PackedLayer& head, std::span<const float> activations) {
-    AlignedVector<float> answer(head.width());
-    head.forward({activations.data(), 1, 0}, {answer.data(), 1, 0});
+    AlignedVector<float> output(head.width());
+    head.forward({activations.data(), 1, 0}, {output.data(), 1, 0});
     std::array<float, StyleDelta::kSize> change;
-    for (size_t i = 0; i < change.size(); ++i) change[i] = answer[i] * output_scale_[i];
+    for (size_t i = 0; i < change.size(); ++i) change[i] = output[i] * output_scale_[i];
     stances_.push_back(stance_of(unpack(change)));
   };
   // Reductions are zero on average.

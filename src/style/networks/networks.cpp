@@ -24,7 +24,7 @@ void StyleNetworks::add_memory(Prefetch& prefetch) const noexcept {
   prefetch.add(std::span(result().pose));
 }
 
-StyleNetworks::Styles StyleNetworks::styles_in_force(std::span<const Pass> passes) noexcept {
+StyleNetworks::Styles StyleNetworks::active_styles(std::span<const Pass> passes) noexcept {
   Styles styles{passes.front().networks->strengths_.size(), 0};
   for (const Pass& pass : passes) {
     const std::vector<float>& strengths = pass.networks->strengths_;
@@ -37,7 +37,7 @@ StyleNetworks::Styles StyleNetworks::styles_in_force(std::span<const Pass> passe
 }
 
 template <class Out>
-void StyleNetworks::add_heads(std::span<const Pass> passes, Styles in_force, int network,
+void StyleNetworks::add_heads(std::span<const Pass> passes, Styles active, int network,
                               Rows<const float> hidden, ScratchArena& arena, Out out) noexcept {
   const Model& m = *passes.front().networks->model_;
   const Model::Heads& heads = m.heads_[network];
@@ -45,8 +45,8 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, Styles in_force, int
   if (heads.layers.empty()) return;
   // Heads that are always active: the only one, or that of no style.
   const size_t always = heads.count > m.built_in() || !m.recipe().style_heads;
-  const size_t first = always > 0 ? 0 : in_force.begin;
-  const size_t last = std::min(heads.count, always + in_force.end);
+  const size_t first = always > 0 ? 0 : active.begin;
+  const size_t last = std::min(heads.count, always + active.end);
   const auto strength = [&](size_t p, size_t h) {
     const auto& [networks, window, gate_share, half] = passes[p];
     if (h < always) return networks->share(half);
@@ -55,12 +55,12 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, Styles in_force, int
            (network == Model::kPose ? posture_strength(asked) : movement_strength(asked));
   };
   ScratchArena room = arena;
-  const Rows<float> answers = room.rows(passes.size(), heads.layers.front().width());
+  const Rows<float> outputs = room.rows(passes.size(), heads.layers.front().width());
   if (heads.joined()) {
-    heads.layers.front().forward(hidden, answers);
+    heads.layers.front().forward(hidden, outputs);
     for (size_t p = 0; p < passes.size(); ++p) {
       for (size_t h = first; h < last; ++h) {
-        const float* from = answers.row(p) + h * heads.outputs;
+        const float* from = outputs.row(p) + h * heads.outputs;
         if (strength(p, h) == 0) continue;
         add_scaled(strength(p, h), {from, heads.outputs}, out(memory(passes[p])));
       }
@@ -84,9 +84,9 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, Styles in_force, int
       }
       from = Rows<float>{gathered.first, count, gathered.stride};
     }
-    heads.layers[h].forward(from, {answers.first, count, answers.stride});
+    heads.layers[h].forward(from, {outputs.first, count, outputs.stride});
     for (size_t k = 0; k < count; ++k) {
-      add_scaled(strength(who[k], h), {answers.row(k), heads.outputs}, out(memory(passes[who[k]])));
+      add_scaled(strength(who[k], h), {outputs.row(k), heads.outputs}, out(memory(passes[who[k]])));
     }
   }
 }
@@ -134,7 +134,7 @@ Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const
   return activations;
 }
 
-void StyleNetworks::add_reduced(std::span<const Pass> passes, Styles in_force,
+void StyleNetworks::add_reduced(std::span<const Pass> passes, Styles active,
                                 std::span<const float> scratch, ScratchArena& arena) noexcept {
   const Model& m = *passes.front().networks->model_;
   const Model::Heads& heads = m.heads_[Model::kPose];
@@ -147,12 +147,12 @@ void StyleNetworks::add_reduced(std::span<const Pass> passes, Styles in_force,
   }
   const Rows<float> gathered = room.rows(passes.size(), count);
   std::array<size_t, kRowsAtOnce> who;
-  const size_t last = std::min(heads.count, in_force.end);
+  const size_t last = std::min(heads.count, active.end);
   const auto strength = [&](size_t p, size_t h) {
     const StyleNetworks& self = *passes[p].networks;
     return self.share(passes[p].half, h) * posture_strength(self.strengths_[h]);
   };
-  for (size_t h = in_force.begin; h < last; ++h) {
+  for (size_t h = active.begin; h < last; ++h) {
     // The characters of this style share the reading of its weights.
     size_t rows = 0;
     for (size_t p = 0; p < passes.size(); ++p) {
@@ -169,10 +169,10 @@ void StyleNetworks::add_reduced(std::span<const Pass> passes, Styles in_force,
       const float open = memory(passes[who[k]]).gate;
       for (size_t i = 0; i < reduction.width(); ++i) reduced.row(k)[i] *= open;
     }
-    const Rows<float> answers = rest.rows(rows, heads.layers[h].width());
-    heads.layers[h].forward(Rows<const float>(reduced), answers);
+    const Rows<float> outputs = rest.rows(rows, heads.layers[h].width());
+    heads.layers[h].forward(Rows<const float>(reduced), outputs);
     for (size_t k = 0; k < rows; ++k) {
-      add_scaled(strength(who[k], h), {answers.row(k), heads.outputs}, memory(passes[who[k]]).pose);
+      add_scaled(strength(who[k], h), {outputs.row(k), heads.outputs}, memory(passes[who[k]]).pose);
     }
   }
 }
@@ -201,10 +201,10 @@ void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numb
   }
   const std::span<float> scratch = arena.take(m.trunks_.scratch_size(passes.size()));
   const auto hidden = m.trunks_.forward(Rows<const float>(input), scratch);
-  const Styles in_force = styles_in_force(passes);
+  const Styles active = active_styles(passes);
   if (m.reductions_.empty()) {
     const Rows<const float> activations = shrink(passes, hidden[Model::kPose], arena);
-    add_heads(passes, in_force, Model::kPose, activations, arena,
+    add_heads(passes, active, Model::kPose, activations, arena,
               [](HalfMemory& half) { return std::span(half.pose); });
   } else {
     if (m.gate_.present()) {
@@ -212,11 +212,11 @@ void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numb
       const Rows<float> centred = room.rows(passes.size(), m.gate_.mean.size());
       ease_gates(passes, hidden[Model::kPose], centred, room);
     }
-    add_reduced(passes, in_force, scratch, arena);
+    add_reduced(passes, active, scratch, arena);
   }
-  add_heads(passes, in_force, Model::kTiming, hidden[Model::kTiming], arena,
+  add_heads(passes, active, Model::kTiming, hidden[Model::kTiming], arena,
             [](HalfMemory& half) { return std::span(half.timing); });
-  add_heads(passes, in_force, Model::kContact, hidden[Model::kContact], arena,
+  add_heads(passes, active, Model::kContact, hidden[Model::kContact], arena,
             [](HalfMemory& half) { return std::span(half.contact); });
   add_learnt(passes, scratch, arena);
   add_person(passes, scratch, arena);

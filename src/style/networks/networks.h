@@ -16,10 +16,11 @@ namespace panache {
 // The evaluation of a model for one character. It holds little more than its results; scratch
 // memory is on the stack, so that a thousand characters and the model share the caches.
 //
-// With networks H and M, which mirrors left and right, the answer to a window x of a style with
-// side s (side.h) is
+// With networks H and M, which mirrors left and right, the output to a window x of a style with
+// side s (find_side()) is
 //   (1 + s) / 2 H(x) + (1 - s) / 2 M H(M x).
-// Each term takes a pass, unless it is zero in all active styles.
+// Each term takes a pass, unless it is zero in all active styles. Sides, gates and strengths are in
+// networks_sides.cpp, learnt styles and persons in networks_learnt.cpp.
 class StyleNetworks {
  public:
   enum class Half { captured, mirrored };  // The first and the second term.
@@ -97,7 +98,7 @@ class StyleNetworks {
   const HalfMemory& of(Half half) const noexcept { return halves_[static_cast<size_t>(half)]; }
   const HalfMemory& result() const noexcept { return of(Half::captured); }
   static HalfMemory& memory(const Pass& pass) noexcept { return pass.networks->of(pass.half); }
-  // The factor of a half in the answer of a style,
+  // The factor of a half in the output of a style,
   float share(Half half, size_t style) const noexcept {
     return (half == Half::captured ? 1 + sides_[style] : 1 - sides_[style]) / 2;
   }
@@ -120,12 +121,12 @@ class StyleNetworks {
   static Rows<const float> shrink(std::span<const Pass> passes, Rows<const float> hidden,
                                   ScratchArena& arena) noexcept;
   // The same as add_heads() for pose heads that read the activations of all layers, in `scratch`.
-  static void add_reduced(std::span<const Pass> passes, Styles in_force,
+  static void add_reduced(std::span<const Pass> passes, Styles active,
                           std::span<const float> scratch, ScratchArena& arena) noexcept;
-  static Styles styles_in_force(std::span<const Pass> passes) noexcept;
+  static Styles active_styles(std::span<const Pass> passes) noexcept;
   // Writes the sum of a network's active heads, weighted by strength, to out(character).
   template <class Out>
-  static void add_heads(std::span<const Pass> passes, Styles in_force, int network,
+  static void add_heads(std::span<const Pass> passes, Styles active, int network,
                         Rows<const float> hidden, ScratchArena& arena, Out out) noexcept;
   // Adds the outputs of the active learnt styles, from the trunks' activations in `scratch`.
   static void add_learnt(std::span<const Pass> passes, std::span<const float> scratch,

@@ -1,4 +1,4 @@
-// Styles learnt in closed form, and their gates.
+// Styles learnt in closed form, with their gates, and persons.
 
 #include <algorithm>
 #include <cmath>
@@ -36,13 +36,13 @@ void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const flo
       for (size_t i = 0; i < count; ++i) {
         drawn[i] = learnt.mean[i] + open * (activations[i] - learnt.mean[i]);
       }
-      const std::span<float> answer = rest.take(learnt.head.width());
-      learnt.head.forward({drawn.data(), 1, 0}, {answer.data(), 1, 0});
+      const std::span<float> output = rest.take(learnt.head.width());
+      learnt.head.forward({drawn.data(), 1, 0}, {output.data(), 1, 0});
       constexpr int kChange = StyleDelta::kSize;
       const float movement = share * movement_strength(asked);
-      add_scaled(share * posture_strength(asked), answer.first<kChange>(), half.pose);
-      add_scaled(movement, answer.subspan<kChange, 1>(), half.timing);
-      add_scaled(movement, answer.subspan<kChange + 1, 2>(), half.contact);
+      add_scaled(share * posture_strength(asked), output.first<kChange>(), half.pose);
+      add_scaled(movement, output.subspan<kChange, 1>(), half.timing);
+      add_scaled(movement, output.subspan<kChange + 1, 2>(), half.contact);
     }
   }
 }
@@ -74,7 +74,7 @@ void StyleNetworks::activations(std::span<const float> window,
   model_->trunks_.all_layers(Model::kPose, 0, 1, scratch, out);
 }
 
-// The person in the answer of the networks.
+// The person in the output of the networks.
 
 void StyleNetworks::set_person(std::span<const float> numbers) noexcept {
   is_person_ = false;
@@ -132,15 +132,15 @@ void StyleNetworks::add_person(std::span<const Pass> passes, std::span<const flo
       *out++ = number;
     }
   }
-  const Rows<float> answers = room.rows(rows, space.head().width());
-  space.head().forward(Rows<const float>(products), answers);
+  const Rows<float> outputs = room.rows(rows, space.head().width());
+  space.head().forward(Rows<const float>(products), outputs);
   constexpr int kChange = StyleDelta::kSize;
   for (size_t k = 0; k < rows; ++k) {
     HalfMemory& half = memory(passes[who[k]]);
-    const std::span<const float> answer(answers.row(k), kLearntOutputs);
-    add_scaled(1, answer.first<kChange>(), half.pose);
-    add_scaled(1, answer.subspan<kChange, 1>(), half.timing);
-    add_scaled(1, answer.subspan<kChange + 1, 2>(), half.contact);
+    const std::span<const float> output(outputs.row(k), kLearntOutputs);
+    add_scaled(1, output.first<kChange>(), half.pose);
+    add_scaled(1, output.subspan<kChange, 1>(), half.timing);
+    add_scaled(1, output.subspan<kChange + 1, 2>(), half.contact);
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "clip/clip.h"
 #include "pose/loop.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "rig/humanoid.h"
 #include "style/stepper.h"
 

@@ -14,7 +14,7 @@
 
 namespace panache {
 
-// Whether a model takes its styles off instead of putting them on (see text.h).
+// Whether a model takes its styles off instead of putting them on (kDirection in model.h).
 bool is_remover(const Model& model);
 
 // The remover's index of the style to take off; "" means kAnyStyle, for motion in an unknown style.

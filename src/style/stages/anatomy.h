@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "rig/rig.h"
 #include "style/stages/step_time.h"
 

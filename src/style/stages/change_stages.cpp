@@ -9,8 +9,8 @@ namespace {
 
 // How each stage reads its inputs from the work of a step and stores its results there.
 
-template <class Stage>
-void carry_out(Stage& stage, StageWork& work) noexcept {
+template <class Member>
+void carry_out(Member& stage, StageWork& work) noexcept {
   stage.step(work);
 }
 

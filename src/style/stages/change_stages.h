@@ -24,29 +24,31 @@
 namespace panache {
 
 // The stages without memory.
-struct Gestures : NoMemory {};  // gesture_player.h
-struct Balance : NoMemory {};   // lean.h
+struct Gestures : NoMemory {};
+struct Balance : NoMemory {};
 
 // All stages in the order of a step; memory, reset, state and names for timing follow from it. A
 // new stage needs a step(StageWork&), or an overload of carry_out() in change_stages.cpp that
 // passes its arguments.
-using ChangeRow = StageRow<Named<StepWatch, "watch the steps">,            //
-                           Named<SeatWatch, "watch the seat">,             //
-                           Named<OutputFilter, "filter">,                  //
-                           Named<RootMotion, "root motion">,               //
-                           Named<Shaping, "shape">,                        //
-                           Named<Gestures, "add a gesture">,               //
-                           Named<Energy, "calm or enliven the input">,     //
-                           Named<Anatomy, "keep joints in range">,         //
-                           Named<Balance, "keep the balance">,             //
-                           Named<LegsApart, "keep the legs apart">,        //
-                           Named<FloorClearance, "keep above the floor">,  //
-                           Named<FreeFall, "fall as the input does">,      //
-                           Named<FootStance, "keep resting feet level">,   //
-                           Named<HeldFeet, "hold the feet">,               //
-                           Named<HandContacts, "keep hands in contact">,   //
-                           Named<ArmsClear, "keep arms outside">,          //
+// clang-format off
+using ChangeRow = StageRow<Named<StepWatch, "watch the steps">,            // input_watch.h
+                           Named<SeatWatch, "watch the seat">,
+                           Named<OutputFilter, "filter">,                  // filter.h
+                           Named<RootMotion, "root motion">,               // root_motion.h
+                           Named<Shaping, "shape">,                        // shaping.h
+                           Named<Gestures, "add a gesture">,               // gesture_player.h
+                           Named<Energy, "calm or enliven the input">,     // energy.h
+                           Named<Anatomy, "keep joints in range">,         // anatomy.h
+                           Named<Balance, "keep the balance">,             // lean.h
+                           Named<LegsApart, "keep the legs apart">,        // legs_apart.h
+                           Named<FloorClearance, "keep above the floor">,  // foot_stance.h
+                           Named<FreeFall, "fall as the input does">,      // flight.h
+                           Named<FootStance, "keep resting feet level">,   // foot_stance.h
+                           Named<HeldFeet, "hold the feet">,               // held_feet.h
+                           Named<HandContacts, "keep hands in contact">,   // hand_contacts.h
+                           Named<ArmsClear, "keep arms outside">,          // arms_clear.h
                            Named<SteadyArms, "turn arms steadily">>;
+// clang-format on
 
 class ChangeStages {
  public:

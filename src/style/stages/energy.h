@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/quat.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "rig/humanoid.h"
 #include "style/stages/step_time.h"
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "pose/changed_joints.h"
 #include "pose/style_delta.h"
 #include "rig/humanoid.h"
 #include "style/stages/step_time.h"

@@ -4,7 +4,7 @@
 
 #include "base/elementary.h"
 #include "pose/limb.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "style/stages/strengths.h"
 
 namespace panache {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/random.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "style/model/gesture.h"
 #include "style/model/model.h"
 #include "style/stages/shape.h"

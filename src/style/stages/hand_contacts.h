@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "pose/contacts.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 #include "style/stages/step_time.h"
 
 namespace panache {

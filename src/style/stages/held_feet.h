@@ -13,7 +13,7 @@ namespace panache {
 class HeldFeet {
  public:
   void reset() noexcept { *this = {}; }
-  // Writes contacts, change and joints.
+  // Writes contacts(), and the change and joints of `work`.
   void step(StageWork& work) noexcept;
   // Probability that each foot is planted and held, at the last step.
   std::span<const float, kFeet> contacts() const noexcept { return contacts_; }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/elementary.h"
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 
 namespace panache {
 namespace {

@@ -2,7 +2,7 @@
 // Keeps a style from leaning so far that the body would fall, and from folding or pressing into the
 // floor a body that already bends down.
 
-#include "pose/style_delta.h"
+#include "pose/changed_joints.h"
 
 namespace panache {
 

@@ -7,6 +7,7 @@
 
 #include "pose/contacts.h"
 #include "pose/observer.h"
+#include "pose/changed_joints.h"
 #include "pose/style_delta.h"
 #include "style/model/gesture.h"
 #include "style/stages/arms_clear.h"

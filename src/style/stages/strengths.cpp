@@ -51,8 +51,8 @@ void EasedStrengths::step(std::span<const float> strengths, std::span<const floa
     posture += std::abs(posture_strength(now_[i]));
     movement += std::abs(movement_strength(now_[i]));
   }
-  in_force_ = shape_;
-  if (movement < posture) in_force_.dynamics *= movement / posture;
+  active_shape_ = shape_;
+  if (movement < posture) active_shape_.dynamics *= movement / posture;
   amount_ = std::min(1.0f, 4 * total);
 }
 

@@ -32,21 +32,21 @@ class EasedStrengths {
   std::span<const float> now() const noexcept { return now_; }      // [styles]
   std::span<const float> sides() const noexcept { return sides_; }  // [styles]
   // Its dynamics also scale from posture_strength() to movement_strength().
-  const Shape& shape() const noexcept { return in_force_; }
+  const Shape& shape() const noexcept { return active_shape_; }
   // How active any style is: 0 without one, 1 from a quarter strength on.
   float amount() const noexcept { return amount_; }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.now_), visit(self.sides_), visit(self.shape_), visit(self.in_force_),
+    visit(self.now_), visit(self.sides_), visit(self.shape_), visit(self.active_shape_),
         visit(self.amount_);
   }
 
  private:
   float ease_seconds_;
   std::vector<float> now_, sides_;  // [styles]
-  Shape shape_, in_force_;
+  Shape shape_, active_shape_;
   float amount_ = 0;
 };
 
