@@ -47,11 +47,11 @@ inline Clip walking_clip(int frames, double fps = 30) {
 }
 
 // Where the joints are in the world, [joints].
-inline std::vector<Vec3> world_places(const Clip& clip, int frame) {
+inline std::vector<Vec3> world_positions(const Clip& clip, int frame) {
   std::vector<Quat> rotations(clip.joints());
-  std::vector<Vec3> places(clip.joints());
-  world_pose(clip.skeleton, clip.pose(frame), {rotations, places});
-  return places;
+  std::vector<Vec3> positions(clip.joints());
+  world_pose(clip.skeleton, clip.pose(frame), {rotations, positions});
+  return positions;
 }
 
 // Whether all poses are the same to the bit.

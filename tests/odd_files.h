@@ -42,7 +42,7 @@ inline int find_joint_named(const Clip& clip, const std::string& name, int nth =
 inline std::vector<std::vector<Vec3>> world_positions(const Clip& clip) {
   std::vector<std::vector<Vec3>> out;
   for (int f = 0; f < clip.frames; ++f) {
-    out.push_back(world_places(clip, f));
+    out.push_back(world_positions(clip, f));
   }
   return out;
 }
@@ -50,20 +50,20 @@ inline std::vector<std::vector<Vec3>> world_positions(const Clip& clip) {
 // A joint after all others that copies another one, below `parent`.
 inline int add_copy(Clip& clip, const std::string& name, int of, int parent) {
   const size_t old = clip.joints();
-  Clip wide = clip;
+  Clip extended = clip;
   Joint joint = clip.skeleton.joints[of];
   joint.name = name;
   joint.parent = parent;
-  wide.skeleton.joints.push_back(joint);
-  wide.resize(clip.frames);
+  extended.skeleton.joints.push_back(joint);
+  extended.resize(clip.frames);
   for (int f = 0; f < clip.frames; ++f) {
     for (size_t j = 0; j <= old; ++j) {
       const size_t from = j < old ? j : static_cast<size_t>(of);
-      wide.pose(f).rotations[j] = clip.pose(f).rotations[from];
-      wide.pose(f).translations[j] = clip.pose(f).translations[from];
+      extended.pose(f).rotations[j] = clip.pose(f).rotations[from];
+      extended.pose(f).translations[j] = clip.pose(f).translations[from];
     }
   }
-  clip = wide;
+  clip = extended;
   return static_cast<int>(old);
 }
 
@@ -103,16 +103,16 @@ inline Clip with_root(const Clip& clip) {
 
 // Without the joints from the first of `names` on that hang below them, or are they.
 inline Clip without(const Clip& clip, const std::vector<std::string>& names) {
-  std::vector<int> kept, place(clip.joints(), -1);
+  std::vector<int> kept, new_index(clip.joints(), -1);
   Clip out;
   out.frame_time = clip.frame_time;
   for (size_t j = 0; j < clip.joints(); ++j) {
     Joint joint = clip.skeleton.joints[j];
     const bool named = std::find(names.begin(), names.end(), joint.name) != names.end();
-    if (named || (joint.parent >= 0 && place[joint.parent] < 0)) continue;
-    place[j] = static_cast<int>(kept.size());
+    if (named || (joint.parent >= 0 && new_index[joint.parent] < 0)) continue;
+    new_index[j] = static_cast<int>(kept.size());
     kept.push_back(static_cast<int>(j));
-    if (joint.parent >= 0) joint.parent = place[joint.parent];
+    if (joint.parent >= 0) joint.parent = new_index[joint.parent];
     out.skeleton.joints.push_back(joint);
   }
   out.resize(clip.frames);

@@ -23,17 +23,17 @@ inline HumanPositions posed(const std::vector<Turn>& turns) {
   constexpr float kRadians = std::numbers::pi_v<float> / 180;
   const Skeleton skeleton = canonical_skeleton();
   std::vector<Quat> rotations(kHumanJoints);
-  std::vector<Vec3> places;
-  for (const Joint& joint : skeleton.joints) places.push_back(joint.offset);
+  std::vector<Vec3> positions;
+  for (const Joint& joint : skeleton.joints) positions.push_back(joint.offset);
   rotations[index(HumanJoint::left_upper_arm)] = axis_angle(kZ, -90 * kRadians);
   rotations[index(HumanJoint::right_upper_arm)] = axis_angle(kZ, 90 * kRadians);
   for (const auto& [joint, axis, degrees] : turns) {
     Quat& rotation = rotations[index(joint)];
     rotation = axis_angle(axis, degrees * kRadians) * rotation;
   }
-  world_pose(skeleton, ConstPose{rotations, places}, Pose{rotations, places});
+  world_pose(skeleton, ConstPose{rotations, positions}, Pose{rotations, positions});
   HumanPositions body;
-  for (int j = 0; j < kHumanJoints; ++j) body[j] = places[j];
+  for (int j = 0; j < kHumanJoints; ++j) body[j] = positions[j];
   return body;
 }
 

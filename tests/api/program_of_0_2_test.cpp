@@ -62,10 +62,10 @@ TEST(ProgramOf02, runs_on_the_library_of_today) {
   const panache_clip clip = {skeleton, 120, 1 / 60.0, rotations.data(), translations.data()};
   const panache_strength_key key = {0, 1};
   const panache_strength_track track = {panache_model_find_style(model, "mummy"), 1, &key};
-  panache_stylize_options how = PANACHE_STYLIZE_OPTIONS;
-  how.shape = &shape;
+  panache_stylize_options stylize = PANACHE_STYLIZE_OPTIONS;
+  stylize.shape = &shape;
   panache_styled_clip* styled = nullptr;
-  ASSERT_EQ(panache_stylize_clip(model, &clip, &track, 1, &how, &styled), PANACHE_OK)
+  ASSERT_EQ(panache_stylize_clip(model, &clip, &track, 1, &stylize, &styled), PANACHE_OK)
       << panache_last_error();
   EXPECT_GT(panache_styled_clip_frame_count(styled), 120);
   panache_styled_clip_destroy(styled);

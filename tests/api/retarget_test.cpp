@@ -87,7 +87,7 @@ std::array<float, 3> rotate(const float* q, std::array<float, 3> v) {
 }
 
 // Where a joint of the last frame is.
-std::array<float, 3> place(const panache_styled_clip* clip, int joint) {
+std::array<float, 3> position(const panache_styled_clip* clip, int joint) {
   const size_t last = STICK_JOINTS * static_cast<size_t>(panache_styled_clip_frame_count(clip) - 1);
   std::array<float, 3> at = {};
   for (; joint >= 0; joint = stick_figure[joint].parent) {
@@ -112,7 +112,7 @@ TEST_F(RetargetApi, hands_meet_and_feet_stand_where_asked_for) {
       const panache_retarget_options options = {sizeof options, feet, hands};
       panache_styled_clip* out = nullptr;
       ASSERT_EQ(panache_retarget_clip(&clap.clip, other, &options, &out), PANACHE_OK);
-      const float apart = place(out, 7)[0] - place(out, 10)[0], toes = place(out, 18)[1];
+      const float apart = position(out, 7)[0] - position(out, 10)[0], toes = position(out, 18)[1];
       // The arms are stretched, and do not quite reach.
       EXPECT_TRUE(hands ? apart < 0.03f : apart > 0.12f) << feet << hands << ": " << apart;
       EXPECT_TRUE(feet ? std::abs(toes - kFloor) < 1e-3f : toes < kFloor - 0.05f)

@@ -44,9 +44,9 @@ TEST(Elementary, sine_and_cosine_are_right_to_a_unit_of_one) {
   Random random(2);
   for (int i = 0; i < 200'000; ++i) {
     const float x = (i % 2 ? 4.0f : 1000.0f) * (2 * random.uniform() - 1);
-    const double wide = static_cast<double>(x);
-    ASSERT_NEAR(static_cast<double>(sine(x)), std::sin(wide), 0x1p-24) << x;
-    ASSERT_NEAR(static_cast<double>(cosine(x)), std::cos(wide), 0x1p-24) << x;
+    const double exact = static_cast<double>(x);
+    ASSERT_NEAR(static_cast<double>(sine(x)), std::sin(exact), 0x1p-24) << x;
+    ASSERT_NEAR(static_cast<double>(cosine(x)), std::cos(exact), 0x1p-24) << x;
   }
   EXPECT_EQ(sine(0.0f), 0.0f);
   EXPECT_EQ(cosine(0.0f), 1.0f);

@@ -113,7 +113,7 @@ TEST_F(FbxText, keys_at_any_times_and_scales_around_pivots_are_as_the_formula_sa
         for (size_t m = 0; m < kChain.size(); ++m) {
           expected.pose(f).rotations[m] = {};
           expected.pose(f).translations[m] =
-              place_by_formula(kChain, take, m, first + f).as<float>();
+              position_by_formula(kChain, take, m, first + f).as<float>();
         }
       }
       expect_same_positions(expected, (*glb)->clip(t == 0 ? 0 : 1), kPlaceTolerance);

@@ -56,7 +56,7 @@ void group(GltfParts& parts, const std::string& name, const std::string& on,
 // Gives the animation of the hips' places to the node above them.
 void move_by_the_root(GltfParts& parts) {
   const size_t hips = node_called(parts, "Hips"), root = node_called(parts, "Armature");
-  edit_keys(parts, hips, "translation", [&](float* place, size_t) { place[1] -= 0.95f; });
+  edit_keys(parts, hips, "translation", [&](float* position, size_t) { position[1] -= 0.95f; });
   for (Json& channel : parts.json["animations"][0]["channels"]) {
     Json& target = channel["target"];
     if (target["node"] == hips && target["path"] == "translation") target["node"] = root;
@@ -112,25 +112,26 @@ class HipsBesideTheSkin : public ProgramTest {
     const size_t keys =
         parts.json["accessors"][sampler["input"].get<size_t>()]["count"].get<size_t>();
     ASSERT_GT(keys, 10u) << what;
-    const MatrixPlaces now(parts, animations.size() - 1);
+    const MatrixPositions now(parts, animations.size() - 1);
     GltfParts resting = parts;
     resting.json["animations"] = Json::array({Json{{"channels", Json::array()}}});
-    const MatrixPlaces rest(resting, 0);
+    const MatrixPositions rest(resting, 0);
     const size_t hips = node_called(parts, "Hips");
     double worst = 0;
     for (size_t f = 0; f < keys; ++f) {
       for (const char* fixed : {"Hips", "Belt", "LeftUpLeg", "RightUpLeg", "Spine"}) {
         for (const char* leg : {"LeftUpLeg", "RightUpLeg"}) {
           const size_t a = node_called(parts, fixed), b = node_called(parts, leg);
-          const double before = length(rest.place(a, 0) - rest.place(b, 0));
-          worst = std::max(worst, std::abs(length(now.place(a, f) - now.place(b, f)) - before));
+          const double before = length(rest.position(a, 0) - rest.position(b, 0));
+          worst =
+              std::max(worst, std::abs(length(now.position(a, f) - now.position(b, f)) - before));
         }
       }
     }
     std::printf("%s: %.6f m\n", what.c_str(), worst);
     // Places within 2.5 m, at the end of 3 joints.
     EXPECT_LT(worst, 2.5 * 3 * 4 * 0x1p-23) << what;
-    EXPECT_GT(length(now.place(hips, keys - 1) - now.place(hips, 0)), 1.0) << what;
+    EXPECT_GT(length(now.position(hips, keys - 1) - now.position(hips, 0)), 1.0) << what;
   }
 };
 

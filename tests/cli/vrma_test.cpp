@@ -189,7 +189,7 @@ TEST_F(Vrma, rotations_are_against_the_rest_pose_whatever_that_is) {
     // The arm of the avatar turns by the angle of the rest pose, against that of the plain file.
     const auto plain = open("walk.vrma");
     const auto arm = [](const Clip& clip) {
-      const auto at = world_places(clip, 10);
+      const auto at = world_positions(clip, 10);
       const size_t upper = joint_of(clip, "leftUpperArm"), lower = joint_of(clip, "leftLowerArm");
       return normalized(at[lower] - at[upper]);
     };
@@ -227,7 +227,7 @@ TEST_F(Vrma, avatars_of_both_versions_get_what_the_player_shows) {
     for (size_t i = 0; i < std::size(kTimes); ++i) {
       const auto frame = static_cast<int>(std::lround(kTimes[i] / clip.frame_time));
       if (frame >= clip.frames) continue;
-      const std::vector<Vec3> places = world_places(clip, frame);
+      const std::vector<Vec3> places = world_positions(clip, frame);
       const auto place = [&](int human) {
         size_t j = 0;
         while (clip.skeleton.joints[j].role != human_joint_name(human)) ++j;
@@ -255,7 +255,7 @@ TEST_F(Vrma, the_rest_pose_is_the_t_pose) {
   write("bent.vrma", to_glb(with_turned_rest(read("walk.vrma"), 40)));
   const auto bent = open("bent.vrma"), plain = open("walk.vrma");
   ASSERT_TRUE(bent && plain);
-  const auto a = world_places(bent->rest(), 0), b = world_places(plain->rest(), 0);
+  const auto a = world_positions(bent->rest(), 0), b = world_positions(plain->rest(), 0);
   for (size_t j = 0; j < a.size(); ++j) EXPECT_LT(length(a[j] - b[j]), 1e-5f) << j;
 }
 

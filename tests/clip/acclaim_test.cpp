@@ -15,7 +15,7 @@
 namespace panache {
 namespace {
 
-using test::world_places;
+using test::world_positions;
 
 // Two bones below the root; the second begins where the first ends.
 constexpr const char* kAsf = R"(# a comment
@@ -88,8 +88,8 @@ class Acclaim : public testing::Test {
   }
   static Quat world_turn(const Clip& clip, size_t joint) {
     std::vector<Quat> out(clip.joints());
-    std::vector<Vec3> places(clip.joints());
-    world_pose(clip.skeleton, clip.pose(0), {out, places});
+    std::vector<Vec3> positions(clip.joints());
+    world_pose(clip.skeleton, clip.pose(0), {out, positions});
     return out[joint];
   }
 
@@ -107,11 +107,11 @@ TEST_F(Acclaim, bones_turn_about_the_ends_of_those_above_in_axes_of_their_own) {
   EXPECT_EQ(clip.skeleton.joints[2].offset, (Vec3{2, 0, 0}));
   EXPECT_EQ(clip.skeleton.joints[2].ends, std::vector<Vec3>{(Vec3{0, 0.5f, 0})});
   // The root at 1 2 3; the arm a quarter turn about z, which its axis leaves alone: it points up.
-  EXPECT_LT(length(world_places(clip, 0)[2] - Vec3{1, 4, 3}), 1e-5f);
+  EXPECT_LT(length(world_positions(clip, 0)[2] - Vec3{1, 4, 3}), 1e-5f);
   // The root a quarter turn about y: x becomes -z. The arm's own x is the skeleton's y, about which
   // a quarter turn brings x to -z; after the root's, to -x.
-  EXPECT_LT(length(world_places(clip, 1)[1] - Vec3{1, 2, 4}), 1e-5f);
-  EXPECT_LT(length(world_places(clip, 1)[2] - Vec3{-1, 2, 4}), 1e-5f);
+  EXPECT_LT(length(world_positions(clip, 1)[1] - Vec3{1, 2, 4}), 1e-5f);
+  EXPECT_LT(length(world_positions(clip, 1)[2] - Vec3{-1, 2, 4}), 1e-5f);
   // The hand's: x first, then y, then z.
   constexpr double kDegree = 3.14159265358979323846 / 180;
   const Quatd hand = axis_angle(Vec3d{0, 0, 1}, 50 * kDegree) *
@@ -141,7 +141,7 @@ TEST_F(Acclaim, a_body_comes_out_in_its_places_and_is_recognised) {
   const Result<Rig> rig = Rig::create(clip);
   ASSERT_TRUE(rig.ok()) << rig.error().message;
   for (int f = 0; f < 20; f += 7) {
-    const std::vector<Vec3> want = world_places(walk, f), got = world_places(clip, f);
+    const std::vector<Vec3> want = world_positions(walk, f), got = world_positions(clip, f);
     for (int j = 0; j < kHumanJoints; ++j) {
       // Six decimals of a degree and of a metre.
       const int joint = rig->joints()[j];
@@ -165,7 +165,7 @@ TEST_F(Acclaim, real_motion_of_cmu_comes_out_in_its_places) {
   ASSERT_TRUE(file);
   float worst = 0;
   for (int f = 0; f < 300; f += 13) {
-    const std::vector<Vec3> want = world_places(walk, f), got = world_places(file->clip(), f);
+    const std::vector<Vec3> want = world_positions(walk, f), got = world_positions(file->clip(), f);
     for (size_t j = 0; j < walk.joints(); ++j) {
       for (size_t k = 0; k < file->clip().joints(); ++k) {
         if (file->clip().skeleton.joints[k].name != maker.name(j)) continue;
@@ -198,7 +198,7 @@ TEST_F(Acclaim, radians_and_what_a_frame_leaves_out) {
   const auto file = must(kAsf, amc);
   ASSERT_TRUE(file);
   for (int f = 0; f < 2; ++f)
-    EXPECT_LT(length(world_places(file->clip(), f)[2] - Vec3{0, 2, 0}), 1e-5f);
+    EXPECT_LT(length(world_positions(file->clip(), f)[2] - Vec3{0, 2, 0}), 1e-5f);
 }
 
 TEST_F(Acclaim, angles_of_the_skeleton_may_be_radians) {
@@ -213,7 +213,7 @@ TEST_F(Acclaim, angles_of_the_skeleton_may_be_radians) {
         must(asf, std::string(head) + "1\nroot 0 0 0 " + quarter + " 0 0\narm 0 " + quarter + "\n");
     ASSERT_TRUE(file);
     // The arm points up, and the root turns about its own x, the skeleton's y.
-    EXPECT_LT(length(world_places(file->clip(), 0)[2] - Vec3{0, 2, 0}), 1e-5f) << head;
+    EXPECT_LT(length(world_positions(file->clip(), 0)[2] - Vec3{0, 2, 0}), 1e-5f) << head;
     // The hand would point to -x, which the root turns to +z.
     const Quat hand = world_turn(file->clip(), 2);
     EXPECT_LT(length(rotate(hand, Vec3{0, 1, 0}) - Vec3{0, 0, 1}), 1e-5f) << head;

@@ -43,8 +43,8 @@ class BinaryFbxWriter {
   void put_number(uint64_t number) {
     out_.append(reinterpret_cast<const char*>(&number), number_size());
   }
-  void put_at(size_t place, uint64_t number) {
-    std::memcpy(out_.data() + place, &number, number_size());
+  void put_at(size_t offset, uint64_t number) {
+    std::memcpy(out_.data() + offset, &number, number_size());
   }
   void put_end(size_t node) { put_at(node, out_.size()); }
 

@@ -141,7 +141,7 @@ TEST(BvhReading, a_last_row_that_the_end_of_the_file_cuts_is_left_out_and_noted)
       "Frames: 2\nFrame Time: 0.1\n1 2 3\n4 5 6\n";
   // What is there of the row, where the fault is, and how the message names what is there.
   const struct {
-    std::string row, place, found;
+    std::string row, position, found;
   } cases[] = {{"7", "12:2", "channel 2 of 3 in the last row, found the end of the file"},
                {"7 8", "12:4", "channel 3 of 3 in the last row, found the end of the file"},
                {"7 8\n", "12:4", "channel 3 of 3 in the last row, found the end of the line"},
@@ -153,7 +153,7 @@ TEST(BvhReading, a_last_row_that_the_end_of_the_file_cuts_is_left_out_and_noted)
     const auto file = must_parse(head + one.row);
     ASSERT_TRUE(file);
     EXPECT_EQ(file->clip().frames, 2);
-    EXPECT_EQ(file->notes(), Notes{"test.bvh:" + one.place + ": expected " + one.found +
+    EXPECT_EQ(file->notes(), Notes{"test.bvh:" + one.position + ": expected " + one.found +
                                    "; this row is left out"});
   }
   // Announced, so that the count is wrong, too.

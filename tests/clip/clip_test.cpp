@@ -182,14 +182,14 @@ constexpr float kNear = 2e-6f;
 
 void expect_same_positions(const Clip& a, const Clip& b) {
   std::vector<Quat> turns_a(a.joints()), turns_b(b.joints());
-  std::vector<Vec3> places_a(a.joints()), places_b(b.joints());
+  std::vector<Vec3> positions_a(a.joints()), positions_b(b.joints());
   for (int f = 0; f < a.frames; ++f) {
-    world_pose(a.skeleton, a.pose(f), {turns_a, places_a});
-    world_pose(b.skeleton, b.pose(f), {turns_b, places_b});
+    world_pose(a.skeleton, a.pose(f), {turns_a, positions_a});
+    world_pose(b.skeleton, b.pose(f), {turns_b, positions_b});
     for (size_t j = 0; j < a.joints(); ++j) {
-      EXPECT_LE(length(places_a[j] - places_b[j]), kNear) << j;
-      const Vec3 end_a = places_a[j] + rotate(turns_a[j], a.skeleton.joints[j].ends[0]);
-      const Vec3 end_b = places_b[j] + rotate(turns_b[j], b.skeleton.joints[j].ends[0]);
+      EXPECT_LE(length(positions_a[j] - positions_b[j]), kNear) << j;
+      const Vec3 end_a = positions_a[j] + rotate(turns_a[j], a.skeleton.joints[j].ends[0]);
+      const Vec3 end_b = positions_b[j] + rotate(turns_b[j], b.skeleton.joints[j].ends[0]);
       EXPECT_LE(length(end_a - end_b), kNear) << "end of " << j;
     }
   }

@@ -53,9 +53,9 @@ const std::vector<SceneModel> kModels = {
 
 SceneCurve line(double begin, double end) { return {{{0, begin}, {10, end}}}; }
 
-std::vector<ScenePlace> places_at(const std::vector<SceneModel>& models, double frame) {
-  std::vector<ScenePlace> out;
-  for (const SceneModel& model : models) out.push_back(saved_place(model));
+std::vector<SceneTransform> transforms_at(const std::vector<SceneModel>& models, double frame) {
+  std::vector<SceneTransform> out;
+  for (const SceneModel& model : models) out.push_back(saved_transform(model));
   out[1][1] = {9 * frame, 0, 0};
   out[1][2].y = 0.5 + 0.1 * frame;
   out[2][1].z = 40 - 6 * frame;
@@ -77,8 +77,8 @@ TEST(FbxNodes, each_is_placed_as_it_inherits_scales) {
     ASSERT_TRUE(scene.ok()) << scene.error().message;
     ASSERT_EQ(scene->nodes.size(), models.size());
     for (size_t f = 0; f <= 10; ++f) {
-      const std::vector<ScenePlace> places = places_at(models, static_cast<double>(f));
-      const std::vector<Vec3d> expected = places_by_formula(models, places);
+      const std::vector<SceneTransform> transforms = transforms_at(models, static_cast<double>(f));
+      const std::vector<Vec3d> expected = positions_by_formula(models, transforms);
       const std::vector<Affine> shown = shown_worlds(*scene, f);
       for (size_t m = 0; m < models.size(); ++m) {
         const size_t n = static_cast<size_t>(
@@ -102,9 +102,9 @@ TEST(FbxNodes, scales_that_are_the_same_on_all_axes_give_the_very_transform) {
       {"Take", {{"BaseLayer", {}, {{2, 1, {{{}, {}, line(40, -20)}}}}}}}};
   const Result<FbxScene> scene = read_fbx_scene(make_fbx_scene(models, stacks), "in.fbx");
   ASSERT_TRUE(scene.ok()) << scene.error().message;
-  std::vector<ScenePlace> places;
-  for (const SceneModel& model : models) places.push_back(saved_place(model));
-  const std::vector<Affine> expected = worlds_by_formula(models, places);
+  std::vector<SceneTransform> transforms;
+  for (const SceneModel& model : models) transforms.push_back(saved_transform(model));
+  const std::vector<Affine> expected = worlds_by_formula(models, transforms);
   const std::vector<Affine> shown = shown_worlds(*scene, 0);
   for (const size_t m : {0u, 1u, 2u}) {  // As far as no axis differs above.
     ASSERT_EQ(scene->nodes[m].name, models[m].name);

@@ -14,9 +14,9 @@ namespace {
 using test::SceneCurve;
 using test::SceneLayer;
 using test::SceneModel;
-using test::ScenePlace;
 using test::SceneStack;
-using test::world_places;
+using test::SceneTransform;
+using test::world_positions;
 
 // Positions are floats of at most 10 m along chains of at most eight joints, whose rotations are
 // floats. Metres.
@@ -36,9 +36,9 @@ size_t joint_called(const Clip& clip, const std::string& name, size_t which = 0)
   return 0;
 }
 
-void expect_at(const Clip& clip, int frame, const std::string& name, Vec3 place,
+void expect_at(const Clip& clip, int frame, const std::string& name, Vec3 position,
                float tolerance = kTolerance) {
-  EXPECT_LE(length(world_places(clip, frame)[joint_called(clip, name)] - place), tolerance)
+  EXPECT_LE(length(world_positions(clip, frame)[joint_called(clip, name)] - position), tolerance)
       << name << " in frame " << frame;
 }
 
@@ -50,14 +50,14 @@ double value_of(const SceneCurve& curve, double frame, double still) {
 }
 
 // The clip's joints are where the formula has the models of the same names, whose numbers at a
-// frame are `places`.
-void expect_places(const Clip& clip, const std::vector<SceneModel>& models,
-                   const std::vector<std::vector<ScenePlace>>& places) {
-  ASSERT_EQ(clip.frames, static_cast<int>(places.size()));
+// frame are `transforms`.
+void expect_positions(const Clip& clip, const std::vector<SceneModel>& models,
+                      const std::vector<std::vector<SceneTransform>>& transforms) {
+  ASSERT_EQ(clip.frames, static_cast<int>(transforms.size()));
   for (int f = 0; f < clip.frames; ++f) {
-    const std::vector<Vec3> got = world_places(clip, f);
+    const std::vector<Vec3> got = world_positions(clip, f);
     const std::vector<Vec3d> expected =
-        test::places_by_formula(models, places[static_cast<size_t>(f)]);
+        test::positions_by_formula(models, transforms[static_cast<size_t>(f)]);
     for (size_t m = 0; m < models.size(); ++m) {
       const Vec3 metres = (expected[m] * 0.01).as<float>();
       ASSERT_LE(length(got[joint_called(clip, models[m].name)] - metres), kTolerance)
@@ -111,10 +111,10 @@ const std::vector<test::SceneCurves> kChainCurves = {
 };
 
 // What the chain's numbers are at a frame, with curves of one layer alone.
-std::vector<ScenePlace> chain_at(const std::vector<SceneModel>& models,
-                                 const std::vector<test::SceneCurves>& curves, double frame) {
-  std::vector<ScenePlace> out;
-  for (const SceneModel& model : models) out.push_back(test::saved_place(model));
+std::vector<SceneTransform> chain_at(const std::vector<SceneModel>& models,
+                                     const std::vector<test::SceneCurves>& curves, double frame) {
+  std::vector<SceneTransform> out;
+  for (const SceneModel& model : models) out.push_back(test::saved_transform(model));
   for (const test::SceneCurves& of : curves) {
     for (size_t axis = 0; axis < 3; ++axis) {
       double& number = out[of.model][static_cast<size_t>(of.part)][axis];
@@ -128,8 +128,8 @@ std::vector<ScenePlace> chain_at(const std::vector<SceneModel>& models,
 TEST(FbxRead, every_part_of_the_chain_counts_for_joints_and_props_in_text_and_binary) {
   const std::string text =
       test::make_fbx_scene(kChain, {{"Take", {{"BaseLayer", {}, kChainCurves}}}});
-  std::vector<std::vector<ScenePlace>> places;
-  for (int f = 0; f <= 10; ++f) places.push_back(chain_at(kChain, kChainCurves, f));
+  std::vector<std::vector<SceneTransform>> transforms;
+  for (int f = 0; f <= 10; ++f) transforms.push_back(chain_at(kChain, kChainCurves, f));
   std::vector<std::string> files = {
       text, test::make_fbx_scene(kChain, {{"Take", {{"BaseLayer", {}, kChainCurves}}}},
                                  {.reversed = true})};
@@ -142,7 +142,7 @@ TEST(FbxRead, every_part_of_the_chain_counts_for_joints_and_props_in_text_and_bi
     const auto file = read_fbx(bytes);
     ASSERT_TRUE(file);
     EXPECT_EQ(file->clip_names(), std::vector<std::string>{"Take"});
-    expect_places(file->clip(), kChain, places);
+    expect_positions(file->clip(), kChain, transforms);
   }
 }
 
@@ -153,12 +153,12 @@ TEST(FbxRead, models_inherit_scales_as_they_say) {
     models[3].numbers["Lcl Scaling"] = {0.5, 2, 1};
     models[4].numbers["InheritType"] = {type};
     models[5].numbers["InheritType"] = {type};
-    std::vector<std::vector<ScenePlace>> places;
-    for (int f = 0; f <= 10; ++f) places.push_back(chain_at(models, kChainCurves, f));
+    std::vector<std::vector<SceneTransform>> transforms;
+    for (int f = 0; f <= 10; ++f) transforms.push_back(chain_at(models, kChainCurves, f));
     const auto file =
         read_fbx(test::make_fbx_scene(models, {{"Take", {{"BaseLayer", {}, kChainCurves}}}}));
     ASSERT_TRUE(file);
-    expect_places(file->clip(), models, places);
+    expect_positions(file->clip(), models, transforms);
   }
 }
 
@@ -266,8 +266,8 @@ TEST(FbxRead, layers_add_up_in_any_order_of_connections) {
           models, {{"Take", {{"BaseLayer", {}, base}, {"Layer2", layered.numbers, over}}}},
           {.reversed = reversed}));
       ASSERT_TRUE(file);
-      std::vector<ScenePlace> places;
-      for (const SceneModel& model : models) places.push_back(test::saved_place(model));
+      std::vector<SceneTransform> transforms;
+      for (const SceneModel& model : models) transforms.push_back(test::saved_transform(model));
       Vec3d hand;
       if (layered.are_rotations) {
         using test::operator*;
@@ -275,8 +275,8 @@ TEST(FbxRead, layers_add_up_in_any_order_of_connections) {
         const test::Affine at = both * test::affine_move({30, 5, -8});
         hand = {at[0][3], at[1][3] + 10, at[2][3]};
       } else {
-        places[1][1] = layered.expected;
-        hand = test::places_by_formula(models, places)[2];
+        transforms[1][1] = layered.expected;
+        hand = test::positions_by_formula(models, transforms)[2];
       }
       expect_at(file->clip(), 5, "hand", (hand * 0.01).as<float>());
     }
@@ -311,7 +311,7 @@ TEST(FbxRead, each_stack_is_a_motion) {
 TEST(FbxRead, curves_belong_to_objects_and_not_to_names) {
   std::vector<SceneModel> models;
   std::vector<test::SceneCurves> curves;
-  std::vector<std::vector<ScenePlace>> places(11);
+  std::vector<std::vector<SceneTransform>> transforms(11);
   for (size_t figure = 0; figure < 3; ++figure) {
     const int first = static_cast<int>(models.size());
     models.push_back({"hips", -1, {{"Lcl Translation", {0, 90, 0}}}});
@@ -326,12 +326,12 @@ TEST(FbxRead, curves_belong_to_objects_and_not_to_names) {
                                                     {.reversed = reversed}));
     ASSERT_TRUE(file);
     for (const int f : {0, 5, 10}) {
-      const std::vector<Vec3> got = world_places(file->clip(), f);
-      std::vector<Vec3d> expected = test::places_by_formula(models, chain_at(models, curves, f));
+      const std::vector<Vec3> got = world_positions(file->clip(), f);
+      std::vector<Vec3d> expected = test::positions_by_formula(models, chain_at(models, curves, f));
       // Joints are level by level, so any order will do that has all of them.
-      for (const Vec3d place : expected) {
+      for (const Vec3d position : expected) {
         EXPECT_TRUE(std::ranges::any_of(got, [&](Vec3 p) {
-          return length(p - (place * 0.01).as<float>()) <= kTolerance;
+          return length(p - (position * 0.01).as<float>()) <= kTolerance;
         })) << f;
       }
     }
@@ -379,9 +379,9 @@ TEST(FbxRead, two_figures_with_equal_names_have_their_own_motions) {
   const Clip& clip = file->clip();
   EXPECT_EQ(clip.joints(), 42u);
   ASSERT_EQ(clip.frames, 3);
-  const std::vector<Vec3> places = world_places(clip, 2);
-  const auto hand = places[joint_called(clip, "leftHand")];
-  const auto other = places[joint_called(clip, "leftHand (2)")];
+  const std::vector<Vec3> positions = world_positions(clip, 2);
+  const auto hand = positions[joint_called(clip, "leftHand")];
+  const auto other = positions[joint_called(clip, "leftHand (2)")];
   EXPECT_LE(length(hand - Vec3{0.17082f, 0.75842f, 0.06802f}), kPrinted);
   EXPECT_LE(length(other - Vec3{1.17077f, 0.75842f, 0.06802f}), kPrinted);
 }

@@ -275,7 +275,7 @@ TEST(FbxWrite, a_new_file_has_the_clip_in_centimetres) {
     Clip expected = walk;
     for (int f = 0; f < expected.frames; ++f) {
       const Pose pose = expected.pose(f);
-      for (Vec3& place : pose.translations) place *= static_cast<float>(unit);
+      for (Vec3& position : pose.translations) position *= static_cast<float>(unit);
       pose.translations[0] = rotate(turn, pose.translations[0]);
       pose.rotations[0] = turn * pose.rotations[0];
     }

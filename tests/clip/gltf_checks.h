@@ -47,7 +47,7 @@ inline size_t joint_named(const Clip& clip, const std::string& name) {
   return 0;
 }
 
-using test::world_places;
+using test::world_positions;
 
 // The file with one clip changed, whose frames come from `frames`; without those, each from itself.
 inline std::string edited(const MotionFile& file, const Clip& changed,

@@ -212,9 +212,9 @@ TEST(GltfError, nesting_and_size_of_the_json) {
   EXPECT_EQ(gltf_rejection("{\"extras\": " + deep),
             "walk.glb: expected JSON at most 200 brackets deep and with at most 1000 members in an "
             "object, found more");
-  std::string wide = "{\"a\":1";
-  for (int i = 0; i < 5000; ++i) wide += ",\"a" + std::to_string(i) + "\":1";
-  EXPECT_EQ(gltf_rejection(wide + "}"),
+  std::string many_members = "{\"a\":1";
+  for (int i = 0; i < 5000; ++i) many_members += ",\"a" + std::to_string(i) + "\":1";
+  EXPECT_EQ(gltf_rejection(many_members + "}"),
             "walk.glb: expected JSON at most 200 brackets deep and with at most 1000 members in an "
             "object, found more");
 }
@@ -303,8 +303,8 @@ TEST(GltfError, numbers_that_are_no_motion) {
   EXPECT_EQ(
       spoilt([](GltfParts& p) {
         p.json["nodes"][0]["scale"] = {1e6, 1e6, 1e6};
-        const std::vector<float> places = {0, 1, 0, 0, 1e4f, 0, 0, 1, 0, 0, 1, 0};
-        p.json["animations"][0]["samplers"][1]["output"] = p.add(places, "VEC3", 3);
+        const std::vector<float> positions = {0, 1, 0, 0, 1e4f, 0, 0, 1, 0, 0, 1, 0};
+        p.json["animations"][0]["samplers"][1]["output"] = p.add(positions, "VEC3", 3);
       }),
       "animations[0].channels[1]: expected positions between -1e9 and 1e9, found one outside");
 }

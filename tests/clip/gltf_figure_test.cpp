@@ -122,10 +122,10 @@ TEST(GltfFigure, joints_alone_become_a_character) {
     const auto before = must_read(bytes), after = must_read(*out);
     ASSERT_EQ(after->clip_names(), before->clip_names());
     for (int f = 0; f < before->clip().frames; ++f) {
-      const std::vector<Vec3> places = world_places(after->clip(), f);
+      const std::vector<Vec3> positions = world_positions(after->clip(), f);
       for (size_t j = 0; j < before->clip().joints(); ++j) {
         const size_t at = joint_named(after->clip(), before->clip().skeleton.joints[j].name);
-        EXPECT_EQ(places[at], world_places(before->clip(), f)[j]);
+        EXPECT_EQ(positions[at], world_positions(before->clip(), f)[j]);
       }
     }
     // Once is enough.

@@ -38,8 +38,9 @@ TEST(GltfFormat, a_clip_reads_back_under_a_node_of_its_name) {
         const Quat a = clip.pose(f).rotations[j], b = back.pose(f).rotations[j + 1];
         EXPECT_TRUE(a == b || a == (Quat{-b.x, -b.y, -b.z, -b.w}));
         // Times a hundredth, rounded once.
-        const Vec3 place = in.can_translate ? clip.pose(f).translations[j] : in.offset;
-        EXPECT_EQ(back.pose(f).translations[j + 1], (place.as<double>() * kCentimetre).as<float>());
+        const Vec3 position = in.can_translate ? clip.pose(f).translations[j] : in.offset;
+        EXPECT_EQ(back.pose(f).translations[j + 1],
+                  (position.as<double>() * kCentimetre).as<float>());
       }
     }
   }

@@ -52,12 +52,12 @@ class GltfPrograms : public testing::Test {
               "");
     const Json seen = Json::parse(*read_file(folder_.path() + "out.txt"));
     EXPECT_EQ(seen["clips"].get<std::vector<std::string>>(), file->clip_names());
-    const std::vector<Vec3> places = world_places(clip, frame);
+    const std::vector<Vec3> positions = world_positions(clip, frame);
     for (size_t j = 0; j < clip.joints(); ++j) {
-      const Json& place = seen["places"][clip.skeleton.joints[j].name];
-      const Vec3 at = {place[0].get<float>(), place[1].get<float>(), place[2].get<float>()};
+      const Json& shown = seen["places"][clip.skeleton.joints[j].name];
+      const Vec3 at = {shown[0].get<float>(), shown[1].get<float>(), shown[2].get<float>()};
       // The time is given with six decimals; nothing moves faster than 10 m/s.
-      EXPECT_LT(length(at - places[j]), 2e-5f) << clip.skeleton.joints[j].name;
+      EXPECT_LT(length(at - positions[j]), 2e-5f) << clip.skeleton.joints[j].name;
     }
     // A picture of one colour is a tenth of that.
     EXPECT_GT(std::filesystem::file_size(folder_.path() + "seen.png"), 5000u);

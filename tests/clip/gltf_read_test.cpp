@@ -125,10 +125,10 @@ TEST(GltfRead, cubic_keys_follow_their_tangents) {
   const Clip clip = must_read(parts)->clip();
   ASSERT_EQ(clip.frames, 49);
   for (int f = 0; f < clip.frames; ++f) {
-    const Vec3 place = clip.pose(f).translations[1];
+    const Vec3 position = clip.pose(f).translations[1];
     // Computed in doubles from exact keys, then rounded once.
-    EXPECT_EQ(place.x, static_cast<float>(x(f / 24.0))) << f;
-    EXPECT_EQ(place.y, 0);
+    EXPECT_EQ(position.x, static_cast<float>(x(f / 24.0))) << f;
+    EXPECT_EQ(position.y, 0);
   }
 }
 
@@ -172,12 +172,12 @@ TEST(GltfRead, bytes_stand_for_fractions_too) {
 
 TEST(GltfRead, a_stride_skips_what_lies_between) {
   GltfParts parts = small_gltf();
-  std::vector<float> places;
+  std::vector<float> positions;
   for (int i = 0; i < 4; ++i) {
-    test::append(places, Vec3{static_cast<float>(i), 2, 3});
-    test::append(places, Vec3{-7, -7, -7});
+    test::append(positions, Vec3{static_cast<float>(i), 2, 3});
+    test::append(positions, Vec3{-7, -7, -7});
   }
-  const size_t output = parts.add(places, "VEC3", 3);
+  const size_t output = parts.add(positions, "VEC3", 3);
   parts.json["accessors"][output]["count"] = 4;
   parts.json["bufferViews"].back()["byteStride"] = 24;
   parts.json["animations"][0]["samplers"][1]["output"] = output;
@@ -190,8 +190,8 @@ TEST(GltfRead, a_stride_skips_what_lies_between) {
 TEST(GltfRead, sparse_numbers_replace_their_own_and_the_rest_is_zero_without_a_view) {
   GltfParts parts = small_gltf();
   const size_t indices = parts.add_view("\x02");
-  const std::vector<float> place = {4, 5, 6};
-  parts.add(place, "VEC3", 3);
+  const std::vector<float> position = {4, 5, 6};
+  parts.add(position, "VEC3", 3);
   const size_t values = parts.json["accessors"].back()["bufferView"];
   const size_t output = parts.json["animations"][0]["samplers"][1]["output"];
   Json& accessor = parts.json["accessors"][output];
@@ -326,7 +326,7 @@ TEST(GltfRead, an_armature_in_centimetres_stands_as_the_one_in_metres_does) {
     ASSERT_EQ(a.frames, b.frames);
     ASSERT_EQ(a.joints(), b.joints());
     for (int f = 0; f < a.frames; ++f) {
-      const std::vector<Vec3> at = world_places(a, f), also = world_places(b, f);
+      const std::vector<Vec3> at = world_positions(a, f), also = world_positions(b, f);
       for (size_t j = 0; j < at.size(); ++j) {
         // The way from the root to a fingertip is 11 joints within 2 m, each rounded a few times.
         EXPECT_LT(length(at[j] - also[j]), 2 * 11 * 4 * 0x1p-23f) << f << " " << j;
@@ -410,11 +410,11 @@ TEST(GltfRead, skins_say_what_follows_each_joint) {
   more.json["nodes"].back()["skin"] = 1;
   EXPECT_EQ(weight_of(more, "LeftHandIndex3"), 18);
   // A vertex may have more than four joints.
-  test::GltfParts wide = parts;
-  test::Json& attributes = wide.json["meshes"][0]["primitives"][0]["attributes"];
+  test::GltfParts eight_joints = parts;
+  test::Json& attributes = eight_joints.json["meshes"][0]["primitives"][0]["attributes"];
   attributes["JOINTS_1"] = attributes["JOINTS_0"];
   attributes["WEIGHTS_1"] = attributes["WEIGHTS_0"];
-  EXPECT_EQ(weight_of(wide, "LeftHandIndex3"), 2 * 18);
+  EXPECT_EQ(weight_of(eight_joints, "LeftHandIndex3"), 2 * 18);
   // What cannot be read says nothing.
   parts.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = 999;
   EXPECT_EQ(weight_of(parts, "LeftHandIndex3"), 0);

@@ -10,7 +10,7 @@ namespace {
 using test::character;
 using test::GltfParts;
 using test::Json;
-using test::MatrixPlaces;
+using test::MatrixPositions;
 using test::node_called;
 
 using Signs = std::array<double, 3>;
@@ -21,15 +21,15 @@ constexpr Signs kSigns[] = {{-1, 1, 1},  {1, -1, 1},  {1, 1, -1},  {-1, -1, 1},
 // quaternions that are floats themselves.
 constexpr double kRounding = 2.5 * 13 * 4 * 0x1p-23;
 
-void expect_places(const GltfParts& parts, const Clip& clip, size_t animation, double tolerance,
-                   const std::string& what) {
-  const MatrixPlaces places(parts, animation);
+void expect_positions(const GltfParts& parts, const Clip& clip, size_t animation, double tolerance,
+                      const std::string& what) {
+  const MatrixPositions positions(parts, animation);
   double worst = 0;
   for (int f = 0; f < clip.frames; f += 7) {
-    const std::vector<Vec3> at = world_places(clip, f);
+    const std::vector<Vec3> at = world_positions(clip, f);
     for (size_t j = 0; j < clip.joints(); ++j) {
       const size_t node = node_called(parts, clip.skeleton.joints[j].name);
-      const Vec3d want = places.place(node, static_cast<size_t>(f));
+      const Vec3d want = positions.position(node, static_cast<size_t>(f));
       worst = std::max(worst, length(at[j].as<double>() - want));
     }
   }
@@ -42,7 +42,7 @@ void expect_read_and_written(const GltfParts& parts, const std::string& what,
                              double tolerance = kRounding) {
   const auto file = must_read(parts);
   ASSERT_TRUE(file) << what;
-  expect_places(parts, file->clip(), 0, tolerance, what + ", read");
+  expect_positions(parts, file->clip(), 0, tolerance, what + ", read");
   Clip changed = file->clip();
   const size_t hips = joint_named(changed, "Hips");
   for (int f = 0; f < changed.frames; ++f) {
@@ -57,11 +57,11 @@ void expect_read_and_written(const GltfParts& parts, const std::string& what,
   for (const EditMode mode : {EditMode::replace, EditMode::add_beside}) {
     const std::string bytes = edited(*file, changed, mode);
     const size_t which = mode == EditMode::replace ? 0 : 2;
-    expect_places(test::glb_parts(bytes), changed, which, tolerance, what + ", written");
+    expect_positions(test::glb_parts(bytes), changed, which, tolerance, what + ", written");
     const auto again = must_read(bytes);
     ASSERT_TRUE(again) << what;
-    expect_places(test::glb_parts(bytes), again->clip(static_cast<int>(which)), which, tolerance,
-                  what + ", read again");
+    expect_positions(test::glb_parts(bytes), again->clip(static_cast<int>(which)), which, tolerance,
+                     what + ", read again");
   }
   // Nothing that is the same is written anew.
   const std::string same = edited(*file, file->clip(), EditMode::replace);
@@ -78,7 +78,7 @@ TEST(GltfScale, a_mirrored_joint_leaves_every_place_where_it_was) {
       const auto file = must_read(parts);
       ASSERT_TRUE(file);
       for (int f = 0; f < plain->clip().frames; f += 10) {
-        const auto want = world_places(plain->clip(), f), got = world_places(file->clip(), f);
+        const auto want = world_positions(plain->clip(), f), got = world_positions(file->clip(), f);
         for (size_t j = 0; j < want.size(); ++j) {
           EXPECT_LT(length(want[j] - got[j]), kRounding) << what << " " << j;
         }

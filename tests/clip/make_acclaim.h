@@ -105,8 +105,8 @@ class AcclaimMaker {
   }
   static std::string bone(const std::string& name, Vec3 tip, Vec3d axis, const std::string& more) {
     const double size = static_cast<double>(length(tip));
-    const Vec3d way = size > 0 ? tip.as<double>() / size : Vec3d{0, 1, 0};
-    return "  begin\n     id 1\n     name " + name + "\n     direction" + text(way) +
+    const Vec3d direction = size > 0 ? tip.as<double>() / size : Vec3d{0, 1, 0};
+    return "  begin\n     id 1\n     name " + name + "\n     direction" + text(direction) +
            "\n     length " + std::to_string(size) + "\n     axis" + text(axis) + "  XYZ\n" + more +
            (more.empty() ? "" : "    limits (-160.0 20.0)\n           (-70 70)\n (-60 70)\n") +
            "  end\n";

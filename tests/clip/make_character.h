@@ -40,17 +40,17 @@ class CharacterMaker {
   struct Bone {
     std::string name, role;  // The role is VRM 1.0's; empty for a twist joint.
     int parent;
-    Vec3d place;  // World, metres.
-    Vec3d tip;    // Where its box ends.
+    Vec3d position;  // World, metres.
+    Vec3d tip;       // Where its box ends.
     double width;
     Quatd turn = {};  // World, at rest.
   };
   static constexpr int kVertexData = 34962, kIndexData = 34963;
   static constexpr double kQuarter = 1.5707963267948966;
 
-  int add(const std::string& name, const std::string& role, int parent, Vec3d place, Vec3d tip,
+  int add(const std::string& name, const std::string& role, int parent, Vec3d position, Vec3d tip,
           double width) {
-    bones_.push_back({name, role, parent, place, tip, width});
+    bones_.push_back({name, role, parent, position, tip, width});
     return static_cast<int>(bones_.size()) - 1;
   }
 
@@ -119,17 +119,17 @@ class CharacterMaker {
 
   void place_joints() {
     for (Bone& b : bones_) {
-      b.turn = rotation_between(Vec3d{0, 1, 0}, normalized(b.tip - b.place));
+      b.turn = rotation_between(Vec3d{0, 1, 0}, normalized(b.tip - b.position));
     }
   }
   Quatd turn_above(int which) const {
     return bone(which).parent < 0 ? armature_turn() : bone(bone(which).parent).turn;
   }
   // In units of the file, for a place in the world.
-  Vec3d local_place(int which, Vec3d place) const {
+  Vec3d local_position(int which, Vec3d position) const {
     const int parent = bone(which).parent;
-    const Vec3d above = parent < 0 ? Vec3d{} : bone(parent).place;
-    return rotate(conjugate(turn_above(which)), place - above) / unit();
+    const Vec3d above = parent < 0 ? Vec3d{} : bone(parent).position;
+    return rotate(conjugate(turn_above(which)), position - above) / unit();
   }
   // The joint's rotation when it turns by `turn` about the world's axes, as they were at rest.
   Quatd local_turn(int which, Quatd turn = {}) const {
@@ -146,7 +146,7 @@ class CharacterMaker {
     nodes.push_back(armature);
     for (size_t b = 0; b < bones_.size(); ++b) {
       const int which = static_cast<int>(b);
-      const Vec3 t = local_place(which, bones_[b].place).as<float>();
+      const Vec3 t = local_position(which, bones_[b].position).as<float>();
       nodes.push_back({{"name", bones_[b].name},
                        {"translation", {t.x, t.y, t.z}},
                        {"rotation", numbers(local_turn(which).as<float>())}});
@@ -182,7 +182,7 @@ class CharacterMaker {
     BoxMesh mesh;
     for (size_t b = 0; b < bones_.size(); ++b) {
       const Bone& from = bones_[b];
-      mesh.add_box(from.place, from.tip, from.width, static_cast<int>(b), from.parent,
+      mesh.add_box(from.position, from.tip, from.width, static_cast<int>(b), from.parent,
                    from.name == "Head" ? 0.05 : 0.0);
     }
     Json body = primitive(mesh, 0);
@@ -211,7 +211,7 @@ class CharacterMaker {
         append(matrices, (rotate(back, axis) * k).as<float>());
         matrices.push_back(0);
       }
-      append(matrices, (rotate(back, -bones_[b].place) * k).as<float>());
+      append(matrices, (rotate(back, -bones_[b].position) * k).as<float>());
       matrices.push_back(1);
       joints.push_back(node_of(static_cast<int>(b)));
     }
@@ -248,18 +248,18 @@ class CharacterMaker {
     animation["extras"]["stride"] = 1.2;
     const size_t times = parts_.add_bounded(key_times(kKeys), "SCALAR", 1);
     const auto wave = [](double t, double shift) { return std::sin(4 * kQuarter * (t + shift)); };
-    const auto turn = [&](const std::string& name, const auto& how) {
+    const auto turn = [&](const std::string& name, const auto& turn_at) {
       parts_.add_channel(0, node_of(bone_named(name)), "rotation", "LINEAR", times,
-                         turns(name, kKeys, how));
+                         turns(name, kKeys, turn_at));
     };
-    std::vector<float> places;
+    std::vector<float> positions;
     for (int i = 0; i < kKeys; ++i) {
       const double t = i / 30.0;
       const Vec3d at = {0.02 * wave(t, 0), 0.95 + 0.02 * wave(2 * t, 0), 1.2 * t};
-      append(places, local_place(0, at).as<float>());
+      append(positions, local_position(0, at).as<float>());
     }
     parts_.add_channel(0, node_of(0), "translation", "LINEAR", times,
-                       parts_.add(places, "VEC3", 3));
+                       parts_.add(positions, "VEC3", 3));
     turn("Hips", [&](double t) { return rotation_y(0.1 * wave(t, 0)); });
     turn("Spine", [&](double t) { return rotation_y(-0.1 * wave(t, 0)); });
     for (const double side : {1.0, -1.0}) {

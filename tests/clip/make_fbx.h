@@ -58,7 +58,7 @@ class FbxMaker {
   }
 
   // The numbers of the file for a joint in a frame; `near` are the angles of the frame before.
-  Vec3d place(size_t j, Vec3 translation) const {
+  Vec3d position(size_t j, Vec3 translation) const {
     const Vec3d metres = translation.as<double>();
     return (is_root(j) ? rotate(axes(), metres) : metres) * (100 / options_.centimetres);
   }
@@ -108,7 +108,7 @@ class FbxMaker {
              "\", \"LimbNode\" {\n\tVersion: 232\n\tProperties70:  {\n";
     add_number("RotationActive", "bool", "1");
     add_number("PreRotation", "Vector3D", vector(pre_angles(j)));
-    add_number("Lcl Translation", "Lcl Translation", vector(place(j, joint.offset)));
+    add_number("Lcl Translation", "Lcl Translation", vector(position(j, joint.offset)));
     add_number("Lcl Rotation", "Lcl Rotation", vector(angles(j, joint.rest, near)));
     if (const auto scale = options_.scales.find(joint.name); scale != options_.scales.end()) {
       add_number("Lcl Scaling", "Lcl Scaling", vector(scale->second));
@@ -128,17 +128,17 @@ class FbxMaker {
              ", \"AnimLayer::Base\", \"\" {\n\t}\n";
     connect("OO", kLayer, kStack);
     for (size_t j = 0; j < clip_.joints(); ++j) {
-      std::vector<Vec3d> places, turns;
+      std::vector<Vec3d> positions, turns;
       EulerAngles near = {};
       for (int f = 0; f < clip_.frames; ++f) {
-        places.push_back(place(j, clip_.pose(f).translations[j]));
+        positions.push_back(position(j, clip_.pose(f).translations[j]));
         turns.push_back(angles(j, clip_.pose(f).rotations[j], near));
       }
-      if (is_root(j)) add_curves(j, 0, "T", "Lcl Translation", places);
+      if (is_root(j)) add_curves(j, 0, "T", "Lcl Translation", positions);
       add_curves(j, 5, "R", "Lcl Rotation", turns);
       const auto scale = options_.scales.find(clip_.skeleton.joints[j].name);
       if (!options_.has_scale_keys || scale == options_.scales.end()) continue;
-      add_curves(j, 10, "S", "Lcl Scaling", std::vector<Vec3d>(places.size(), scale->second));
+      add_curves(j, 10, "S", "Lcl Scaling", std::vector<Vec3d>(positions.size(), scale->second));
     }
   }
 

@@ -72,7 +72,7 @@ class Fbx6Maker {
   static Vec3d offset(size_t j) { return own(j, 0.5, 1.5, -1); }
 
   // The place is T + Roff + Rp - (Rpre R Rpost^-1) Rp where there is no scale.
-  Vec3d place(size_t j, Vec3 metres, Quat rotation) const {
+  Vec3d position(size_t j, Vec3 metres, Quat rotation) const {
     const Vec3d there = metres.as<double>() * (100 / unit_);
     return there - offset(j) - pivot(j) + rotate(rotation.as<double>(), pivot(j));
   }
@@ -96,7 +96,7 @@ class Fbx6Maker {
     property("PostRotation", "Vector3D", text(post(j)));
     property("RotationOffset", "Vector3D", text(offset(j)));
     property("RotationPivot", "Vector3D", text(pivot(j)));
-    property("Lcl Translation", "Lcl Translation", text(place(j, joint.offset, joint.rest)));
+    property("Lcl Translation", "Lcl Translation", text(position(j, joint.offset, joint.rest)));
     property("Lcl Rotation", "Lcl Rotation", text(angles(j, joint.rest, near)));
     property("Lcl Scaling", "Lcl Scaling", text(scale(j)));
     text_ += "\t\t}\n\t}\n";
@@ -108,14 +108,14 @@ class Fbx6Maker {
   void add_channels(size_t j) {
     text_ += "\t\tModel: \"Model::" + clip_.skeleton.joints[j].name +
              "\" {\n\t\t\tChannel: \"Transform\" {\n";
-    std::vector<Vec3d> places, turns;
+    std::vector<Vec3d> positions, turns;
     EulerAngles near = {};
     for (int f = 0; f < clip_.frames; ++f) {
       const Quat rotation = clip_.pose(f).rotations[j];
-      places.push_back(place(j, clip_.pose(f).translations[j], rotation));
+      positions.push_back(position(j, clip_.pose(f).translations[j], rotation));
       turns.push_back(angles(j, rotation, near));
     }
-    add_channel("T", places);
+    add_channel("T", positions);
     add_channel("R", turns);
     if (!scales_.empty()) add_channel("S", std::vector<Vec3d>(turns.size(), scale(j)));
     text_ += "\t\t\t}\n\t\t}\n";
@@ -123,7 +123,8 @@ class Fbx6Maker {
 
   void add_channel(const std::string& letter, const std::vector<Vec3d>& values) {
     // Ways in which keys go on, each with what programs write behind its letter.
-    static constexpr const char* kWays[] = {",L", ",U,s,0,-1.5,n", ",C,n", ",U,a,0.333,0.333"};
+    static constexpr const char* kInterpolations[] = {",L", ",U,s,0,-1.5,n", ",C,n",
+                                                      ",U,a,0.333,0.333"};
     text_ += "\t\t\t\tChannel: \"" + letter + "\" {\n";
     for (int axis = 0; axis < 3; ++axis) {
       text_ += std::string("\t\t\t\t\tChannel: \"") + "XYZ"[axis] +
@@ -137,7 +138,7 @@ class Fbx6Maker {
                  text(axis == 0   ? v.x
                       : axis == 1 ? v.y
                                   : v.z) +
-                 kWays[(f + j_) % 4];
+                 kInterpolations[(f + j_) % 4];
       }
       text_ += "\n\t\t\t\t\t}\n";
     }

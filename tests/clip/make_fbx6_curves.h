@@ -144,8 +144,8 @@ inline Affine affine_turn(Vec3d degrees) {
 }
 
 // In the world, in metres.
-inline Vec3d place_by_formula(const std::vector<CurveModel>& models, const CurveTake& take,
-                              size_t model, double frame) {
+inline Vec3d position_by_formula(const std::vector<CurveModel>& models, const CurveTake& take,
+                                 size_t model, double frame) {
   Affine at = affine_move({});
   for (int m = static_cast<int>(model); m >= 0; m = models[static_cast<size_t>(m)].parent) {
     const CurveModel& from = models[static_cast<size_t>(m)];

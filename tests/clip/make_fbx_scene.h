@@ -183,8 +183,8 @@ inline std::string make_fbx_scene(const std::vector<SceneModel>& models,
 }
 
 // What a model's animated numbers are at a frame: translation, rotation and scale.
-using ScenePlace = std::array<Vec3d, 3>;
-inline ScenePlace saved_place(const SceneModel& model) {
+using SceneTransform = std::array<Vec3d, 3>;
+inline SceneTransform saved_transform(const SceneModel& model) {
   return {model.vector(kCurvesOf[0]), model.vector(kCurvesOf[1]), model.vector(kCurvesOf[2])};
 }
 
@@ -217,11 +217,11 @@ inline Affine linear_of(Affine of) {
 // the rotations, and what is left of its linear part), InheritType 0 is W R B S, 1 is W B R S, and
 // 2 is W R B S'^-1 S, where S' is the parent's own scale.
 inline std::vector<Affine> worlds_by_formula(const std::vector<SceneModel>& models,
-                                             const std::vector<ScenePlace>& places) {
+                                             const std::vector<SceneTransform>& transforms) {
   std::vector<Affine> worlds, turns;
   for (size_t m = 0; m < models.size(); ++m) {
     const SceneModel& model = models[m];
-    const auto& [translation, rotation, scale] = places[m];
+    const auto& [translation, rotation, scale] = transforms[m];
     const Vec3d turning = model.vector("RotationPivot"), growing = model.vector("ScalingPivot");
     const Affine turn = affine_turn(model.vector("PreRotation")) *
                         affine_turn(rotation, model.number("RotationOrder", 0)) *
@@ -235,7 +235,7 @@ inline std::vector<Affine> worlds_by_formula(const std::vector<SceneModel>& mode
     } else {
       const auto parent = static_cast<size_t>(model.parent);
       const Affine rest = turned_back(turns[parent]) * linear_of(worlds[parent]);
-      const Vec3d s = places[parent][2];
+      const Vec3d s = transforms[parent][2];
       const int inherit = model.number("InheritType", 1);
       const Affine without = rest * affine_grow({1 / s.x, 1 / s.y, 1 / s.z});
       Affine world = inherit == 1   ? turns[parent] * rest * turn * affine_grow(scale)
@@ -250,10 +250,10 @@ inline std::vector<Affine> worlds_by_formula(const std::vector<SceneModel>& mode
   return worlds;
 }
 
-inline std::vector<Vec3d> places_by_formula(const std::vector<SceneModel>& models,
-                                            const std::vector<ScenePlace>& places) {
+inline std::vector<Vec3d> positions_by_formula(const std::vector<SceneModel>& models,
+                                               const std::vector<SceneTransform>& transforms) {
   std::vector<Vec3d> out;
-  for (const Affine& world : worlds_by_formula(models, places)) {
+  for (const Affine& world : worlds_by_formula(models, transforms)) {
     out.push_back({world[0][3], world[1][3], world[2][3]});
   }
   return out;

@@ -221,13 +221,13 @@ inline GltfParts small_gltf() {
   json["skins"][0]["joints"] = {1, 2};
   json["animations"][0]["name"] = "nod";
   const size_t times = parts.add_bounded(key_times(4), "SCALAR", 1);
-  std::vector<float> turns, places;
+  std::vector<float> turns, positions;
   for (int i = 0; i < 4; ++i) {
     append(turns, axis_angle(Vec3d{1, 0, 0}, 0.2 * i).as<float>());
-    append(places, Vec3{0.1f * static_cast<float>(i), 1, 0});
+    append(positions, Vec3{0.1f * static_cast<float>(i), 1, 0});
   }
   parts.add_channel(0, 1, "rotation", "LINEAR", times, parts.add(turns, "VEC4", 4));
-  parts.add_channel(0, 1, "translation", "LINEAR", times, parts.add(places, "VEC3", 3));
+  parts.add_channel(0, 1, "translation", "LINEAR", times, parts.add(positions, "VEC3", 3));
   return parts;
 }
 

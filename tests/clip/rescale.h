@@ -68,8 +68,9 @@ inline void rescale(GltfParts& parts, const std::string& name, const std::array<
     Json& json = parts.json["nodes"][below];
     std::array<float, 3> t = json.value("translation", std::array<float, 3>{});
     std::array<float, 4> q = json.value("rotation", std::array<float, 4>{0, 0, 0, 1});
-    const auto move = [&](float* place, size_t) {
-      for (size_t k = 0; k < 3; ++k) place[k] = static_cast<float>(place[k] * signs[k] / size);
+    const auto move = [&](float* position, size_t) {
+      for (size_t k = 0; k < 3; ++k)
+        position[k] = static_cast<float>(position[k] * signs[k] / size);
     };
     move(t.data(), 0);
     mirror(signs, q.data());
@@ -108,9 +109,9 @@ inline Affine operator*(const Affine& a, const Affine& b) {
 
 // Where the nodes are at key `frame` of an animation whose keys are its frames: translation times
 // rotation times scale, or the matrix, along the tree.
-class MatrixPlaces {
+class MatrixPositions {
  public:
-  MatrixPlaces(const GltfParts& parts, size_t animation) : parts_(parts) {
+  MatrixPositions(const GltfParts& parts, size_t animation) : parts_(parts) {
     const Json& json = parts.json["animations"][animation];
     for (const Json& channel : json["channels"]) {
       const Json& sampler = json["samplers"][channel["sampler"].get<size_t>()];
@@ -126,7 +127,7 @@ class MatrixPlaces {
     }
   }
 
-  Vec3d place(size_t node, size_t frame) const {
+  Vec3d position(size_t node, size_t frame) const {
     Affine at = local(node, frame);
     for (int up = parent_[node]; up >= 0; up = parent_[static_cast<size_t>(up)]) {
       at = local(static_cast<size_t>(up), frame) * at;

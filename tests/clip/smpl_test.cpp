@@ -12,7 +12,7 @@
 namespace panache {
 namespace {
 
-using test::world_places;
+using test::world_positions;
 
 constexpr double kQuarter = 1.5707963267948966;
 
@@ -94,7 +94,7 @@ TEST(SmplSkeleton, the_trees_are_those_that_were_published) {
 TEST(SmplSkeleton, it_stands_in_t_pose_and_both_sides_are_alike) {
   for (const size_t joints : {kSmplJoints, kSmplHJoints, kSmplXJoints}) {
     const Clip rest = rest_clip(smpl_skeleton(joints));
-    const std::vector<Vec3> at = world_places(rest, 0);
+    const std::vector<Vec3> at = world_positions(rest, 0);
     for (size_t j = 0; j < joints; ++j) {
       const std::string& name = rest.skeleton.joints[j].name;
       if (!name.starts_with("left")) continue;
@@ -119,8 +119,8 @@ TEST(Smpl, rotation_vectors_turn_joints_and_trans_moves_all) {
     EXPECT_EQ(clip.joints(), joints);
     EXPECT_EQ(clip.frames, 3);
     EXPECT_DOUBLE_EQ(clip.frame_time, 1.0 / 120);
-    const std::vector<Vec3> rest = world_places(file->rest(), 0), first = world_places(clip, 0),
-                            second = world_places(clip, 1);
+    const std::vector<Vec3> rest = world_positions(file->rest(), 0),
+                            first = world_positions(clip, 0), second = world_positions(clip, 1);
     EXPECT_LT(length(first[15] - rest[15] - Vec3{0, 1, 0}), 1e-6f);
     EXPECT_LT(length(second[15] - rest[15] - Vec3{0.5f, 1, 0}), 1e-6f);
     // From along x to straight down, so is the forearm's way from the shoulder.
@@ -288,7 +288,7 @@ TEST(Smpl, a_new_file_stands_on_the_floor_with_z_up) {
   const auto file = must_read(format_smpl(clip));
   ASSERT_TRUE(file);
   EXPECT_DOUBLE_EQ(file->clip().frame_time, 1.0 / 30);
-  const std::vector<Vec3> want = world_places(clip, 0), got = world_places(file->clip(), 0);
+  const std::vector<Vec3> want = world_positions(clip, 0), got = world_positions(file->clip(), 0);
   for (size_t j = 0; j < want.size(); ++j) {
     EXPECT_LT(length(got[j] - Vec3{want[j].x, -want[j].z, want[j].y}), 1e-6f) << j;
   }

@@ -9,7 +9,7 @@ namespace {
 using namespace panache;
 
 // What is written must be readable, and have the motions that it should have.
-void write_in_every_way(const std::string& bytes) {
+void write_in_every_mode(const std::string& bytes) {
   const auto file = parse_fbx(bytes, "in.fbx");
   if (!file) return;
   const Clip& clip = (*file)->clip(0);
@@ -44,7 +44,7 @@ void write_in_every_way(const std::string& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   fuzz::use(parse_fbx(bytes, "in.fbx"), ".fbx", parse_fbx);
-  write_in_every_way(bytes);
+  write_in_every_mode(bytes);
   const Result<FbxScene> scene = read_fbx_scene(bytes, "in.fbx");
   if (!scene && scene.error().message.empty()) fuzz::fail("an error without a message");
   return 0;

@@ -113,9 +113,9 @@ void check_weights(const aiMesh& mesh) {
 void check_channel(const aiNodeAnim& channel) {
   for (unsigned k = 0; k < channel.mNumRotationKeys; ++k) {
     const aiQuaternion& q = channel.mRotationKeys[k].mValue;
-    const aiVector3D place =
+    const aiVector3D position =
         channel.mNumPositionKeys ? channel.mPositionKeys[k].mValue : aiVector3D();
-    if (!std::isfinite(q.w + q.x + q.y + q.z + place.x + place.y + place.z)) {
+    if (!std::isfinite(q.w + q.x + q.y + q.z + position.x + position.y + position.z)) {
       panache::fuzz::fail("a key that is no number");
     }
     if (k > 0 && !(channel.mRotationKeys[k].mTime > channel.mRotationKeys[k - 1].mTime)) {

@@ -29,13 +29,13 @@ LearntStyle learn(const Clip& styled) {
 }
 
 TEST(FindGestures, a_glance_is_found_where_it_is_and_kept_with_the_style) {
-  for (const float way : {1.0f, -1.0f}) {
+  for (const float sign : {1.0f, -1.0f}) {
     Clip styled = test::bent_walk(8);
-    gesture_in(styled, 3, 4.4, head, {0, 0.7f * way, 0});
+    gesture_in(styled, 3, 4.4, head, {0, 0.7f * sign, 0});
     const LearntStyle learnt = learn(styled);
     ASSERT_EQ(learnt.gestures.size(), 1u);
     const LearntGesture& glance = learnt.gestures[0];
-    EXPECT_TRUE(glance.name.starts_with(way > 0 ? "glances left, " : "glances right, "))
+    EXPECT_TRUE(glance.name.starts_with(sign > 0 ? "glances left, " : "glances right, "))
         << glance.name;
     EXPECT_EQ(glance.take, "styled.bvh");
     EXPECT_NEAR(glance.start, 2.9, 0.3);
@@ -46,7 +46,7 @@ TEST(FindGestures, a_glance_is_found_where_it_is_and_kept_with_the_style) {
     EXPECT_FALSE(kept.moves_hips());
     float max = 0;
     for (float t = 0; t < kept.seconds(); t += 0.05f) {
-      max = std::max(max, way * kept.at(t).turns[index(head)].y);
+      max = std::max(max, sign * kept.at(t).turns[index(head)].y);
     }
     EXPECT_NEAR(max, 0.7f, 0.15f);
     EXPECT_EQ(learnt.file.metadata.at("gesture_rate"), "0.125") << "one in 8 s";

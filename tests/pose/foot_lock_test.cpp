@@ -228,13 +228,13 @@ TEST(FootLock, a_foot_that_lands_moving_comes_to_rest_without_a_jerk) {
   Sliding body;
   std::vector<Vec3> toes;
   for (int f = 0; f < 30; ++f) toes.push_back(body.step(5 * f, f < 10 ? 0.0f : 1.0f, 1));
-  const auto way = [&](int f) { return length(toes[f] - toes[f - 1]); };
-  EXPECT_NEAR(way(9), 0.01f, 1e-4);
+  const auto step = [&](int f) { return length(toes[f] - toes[f - 1]); };
+  EXPECT_NEAR(step(9), 0.01f, 1e-4);
   // A hard stop would take all of its speed within a frame.
-  EXPECT_GT(way(10), 0.003f);
-  for (int f = 11; f < 14; ++f) EXPECT_LE(way(f), way(f - 1) + 1e-4f) << f;
+  EXPECT_GT(step(10), 0.003f);
+  for (int f = 11; f < 14; ++f) EXPECT_LE(step(f), step(f - 1) + 1e-4f) << f;
   // From then on it follows the style by 2 cm/s at most.
-  for (int f = 16; f < 19; ++f) EXPECT_LT(way(f), 0.02f / 30 + 3e-4f) << f;
+  for (int f = 16; f < 19; ++f) EXPECT_LT(step(f), 0.02f / 30 + 3e-4f) << f;
 }
 
 TEST(FootLock, a_foot_pulled_too_far_trails_behind_without_a_jump) {
@@ -315,7 +315,7 @@ TEST(FootLock, a_foot_that_arrives_fast_is_not_stopped_in_its_way) {
 
 TEST(FootLock, a_foot_that_a_style_moves_faster_than_it_lands_is_not_held) {
   // Over an input that stands; the contact comes after two frames.
-  const auto way = [](int millimetres) {
+  const auto travel = [](int millimetres) {
     Sliding body;
     Vec3 last = body.step(0, 0, 1), toe;
     for (int f = 1; f <= 5; ++f) {
@@ -323,8 +323,8 @@ TEST(FootLock, a_foot_that_a_style_moves_faster_than_it_lands_is_not_held) {
     }
     return length(toe - last);
   };
-  EXPECT_LT(way(50), 0.02f) << "1.5 m/s: held";
-  EXPECT_NEAR(way(120), 0.12f, 3e-3f) << "3.6 m/s";
+  EXPECT_LT(travel(50), 0.02f) << "1.5 m/s: held";
+  EXPECT_NEAR(travel(120), 0.12f, 3e-3f) << "3.6 m/s";
 }
 
 TEST(FootLock, a_toe_below_the_floor_is_drawn_up_planted_or_not) {

@@ -170,10 +170,11 @@ TEST(CloseLoop, what_the_body_does_not_carry_is_left_alone) {
   clip.skeleton.joints.push_back(prop);
   for (int f = 0; f < open.frames; ++f) {
     std::vector<Quat> rotations(open.pose(f).rotations.begin(), open.pose(f).rotations.end());
-    std::vector<Vec3> places(open.pose(f).translations.begin(), open.pose(f).translations.end());
+    std::vector<Vec3> translations(open.pose(f).translations.begin(),
+                                   open.pose(f).translations.end());
     rotations.push_back(axis_angle(Vec3{0, 1, 0}, 0.01f * static_cast<float>(f)));
-    places.push_back({0, 0, 0.04f * static_cast<float>(f)});
-    clip.append({rotations, places});
+    translations.push_back({0, 0, 0.04f * static_cast<float>(f)});
+    clip.append({rotations, translations});
   }
   Clip closed = clip;
   close_loop(*Rig::create(clip), 0, all(clip.frames, {false, false}), closed);

@@ -276,11 +276,11 @@ TEST(Retarget, twist_joints_of_the_hips_follow_too) {
   Clip twisted{with_twist, motion.frame_time, 0, {}, {}};
   for (int f = 0; f < motion.frames; ++f) {
     std::vector<Quat> rotations(motion.pose(f).rotations.begin(), motion.pose(f).rotations.end());
-    std::vector<Vec3> places(motion.pose(f).translations.begin(),
-                             motion.pose(f).translations.end());
+    std::vector<Vec3> translations(motion.pose(f).translations.begin(),
+                                   motion.pose(f).translations.end());
     rotations.push_back(axis_angle(Vec3{0, 1, 0}, 0.6f));
-    places.push_back(twist.offset);
-    twisted.append({rotations, places});
+    translations.push_back(twist.offset);
+    twisted.append({rotations, translations});
   }
   const Clip same = put(twisted, rest_clip(with_twist));
   EXPECT_NEAR(bent_deg(same, "hips_twist"), 0.6 * 180 / 3.14159265, 0.1);
@@ -359,22 +359,23 @@ TEST(TPoseBody, has_the_limbs_of_its_rig_and_stands_on_the_floor) {
   const Clip character = character_of(maker);
   const Clip body = t_pose_body(character, *Rig::create(character));
   const HumanPositions want = maker_body(maker);
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   for (const Joint& joint : body.skeleton.joints) {
-    places.push_back(joint.offset + (joint.parent < 0 ? Vec3{} : places[joint.parent]));
+    positions.push_back(joint.offset + (joint.parent < 0 ? Vec3{} : positions[joint.parent]));
   }
   for (int j = 0; j < kHumanJoints; ++j) {
     EXPECT_EQ(body.skeleton.joints[j].name, human_joint_name(j));
     EXPECT_EQ(body.skeleton.joints[j].role, human_joint_name(j));
-    const Vec3 other = places[kHumanMirror[j]];
-    EXPECT_LT(length(places[j] - Vec3{-other.x, other.y, other.z}), 1e-5f) << human_joint_name(j);
+    const Vec3 other = positions[kHumanMirror[j]];
+    EXPECT_LT(length(positions[j] - Vec3{-other.x, other.y, other.z}), 1e-5f)
+        << human_joint_name(j);
   }
   for (const HumanJoint joint : {left_lower_arm, left_hand, left_lower_leg, left_foot}) {
     const int j = index(joint), above = kHumanParent[j];
-    EXPECT_LT(length(places[j] - places[above] - (want[j] - want[above])), 1e-4f)
+    EXPECT_LT(length(positions[j] - positions[above] - (want[j] - want[above])), 1e-4f)
         << human_joint_name(j);
   }
-  EXPECT_NEAR(places[index(left_toes)].y, 0, 1e-5f);
+  EXPECT_NEAR(positions[index(left_toes)].y, 0, 1e-5f);
   EXPECT_TRUE(body.skeleton.joints[0].can_translate);
   // Thumbs point half ahead, fingers along the arm.
   for (const Joint& joint : body.skeleton.joints) {

@@ -213,14 +213,14 @@ TEST(RigBody, stands_on_the_joints_of_the_clip_where_the_mannequin_stands) {
   std::array<float, kMannequinNumbers> parts;
   mannequin.read(clip.pose(2), parts);
   std::vector<Quat> turns(clip.joints());
-  std::vector<Vec3> places(clip.joints());
+  std::vector<Vec3> positions(clip.joints());
   const ConstPose pose = clip.pose(2);
   for (size_t j = 0; j < clip.joints(); ++j) {  // Parents come first.
     const int parent = clip.skeleton.joints[j].parent;
     const auto above = static_cast<size_t>(std::max(parent, 0));
     turns[j] = parent < 0 ? pose.rotations[j] : turns[above] * pose.rotations[j];
-    places[j] = parent < 0 ? pose.translations[j]
-                           : places[above] + rotate(turns[above], pose.translations[j]);
+    positions[j] = parent < 0 ? pose.translations[j]
+                              : positions[above] + rotate(turns[above], pose.translations[j]);
   }
   const float scale = rig.unit() / rig.scale();
   for (size_t v = 0; v < mesh.positions.size(); v += 37) {
@@ -232,7 +232,7 @@ TEST(RigBody, stands_on_the_joints_of_the_clip_where_the_mannequin_stands) {
         Vec3{part[0], part[1], part[2]} + rotate(Quat{part[3], part[4], part[5], part[6]}, local);
     const SkinnedBody::Bind& bind = body.binds[body.joints[v][0]];
     const Vec3 own = rotate(bind.rotation, body.positions[v]) * bind.scale + bind.translation;
-    const Vec3 written = (places[bind.joint] + rotate(turns[bind.joint], own)) * rig.unit();
+    const Vec3 written = (positions[bind.joint] + rotate(turns[bind.joint], own)) * rig.unit();
     // Rounding, of metres, and the floor, which files keep.
     const Vec3 apart = written - shown * scale;
     EXPECT_NEAR(apart.x, 0, 1e-4f);
@@ -269,9 +269,9 @@ TEST(MannequinTest, stands_where_the_rig_stands_and_shows_twist) {
   EXPECT_NEAR(length(log_rotation(relative)), 1.0f, 1e-3f);
   // Each part's child is where its own frame says.
   const Vec3 offset = mannequin.offsets()[hand];
-  const Vec3 place = rotate(Quat{lower[0], lower[1], lower[2], lower[3]}, offset);
+  const Vec3 turned = rotate(Quat{lower[0], lower[1], lower[2], lower[3]}, offset);
   for (int k = 0; k < 3; ++k) {
-    const float along = k == 0 ? place.x : k == 1 ? place.y : place.z;
+    const float along = k == 0 ? turned.x : k == 1 ? turned.y : turned.z;
     EXPECT_NEAR(after[kPartNumbers * hand + static_cast<size_t>(k)],
                 after[kPartNumbers * arm + static_cast<size_t>(k)] + along, 1e-4f);
   }

@@ -136,7 +136,7 @@ TEST(UsualUnit, legs_of_people_and_children_tell_it) {
 TEST(UsualUnit, a_short_person_stays_short) {
   Clip clip = test::walking_clip(10);
   for (Joint& joint : clip.skeleton.joints) joint.offset *= 93;
-  for (Vec3& place : clip.translations) place *= 93;
+  for (Vec3& translation : clip.translations) translation *= 93;
   const Result<Rig> rig = Rig::create(clip);
   ASSERT_TRUE(rig.ok());
   EXPECT_EQ(rig->unit(), 0.01f);

@@ -29,12 +29,12 @@ inline HumanPositions t_pose() {
 inline bool same_bits(Quat a, Quat b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 inline bool same_bits(Vec3 a, Vec3 b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-// One joint: its name, its parent's, and where it stands: `along` the way to `place` from that
-// joint's canonical parent. A '*' in the names makes two joints, one for either side; `place` is
+// One joint: its name, its parent's, and where it stands: `along` the way to `target` from that
+// joint's canonical parent. A '*' in the names makes two joints, one for either side; `target` is
 // then the left one's.
 struct Line {
   std::string name, parent;
-  HumanJoint place;
+  HumanJoint target;
   float along = 1;
   int human = -1;  // The human joint that a person takes it for.
 };
@@ -59,10 +59,10 @@ inline std::vector<Line> tree(const std::string& text) {
     std::istringstream words(item.substr(comma + 2));
     std::string word;
     words >> word;
-    line.place = HumanJoint{find_human_joint(word).value()};
+    line.target = HumanJoint{find_human_joint(word).value()};
     while (words >> word) {
       if (word == "=") {
-        line.human = index(line.place);
+        line.human = index(line.target);
       } else if (word[0] == '=') {
         line.human = find_human_joint(word.substr(1)).value();
       } else {
@@ -116,9 +116,10 @@ inline MadeUp make_up(const std::vector<Line>& lines, const std::string& left,
                       const std::string& right) {
   const HumanPositions body = t_pose();
   MadeUp out;
-  const auto add = [&](const std::string& name, const std::string& parent, int place, float along) {
-    const int above = kHumanParent[place];
-    const Vec3 at = above < 0 ? body[place] * along : lerp(body[above], body[place], along);
+  const auto add = [&](const std::string& name, const std::string& parent, int target,
+                       float along) {
+    const int above = kHumanParent[target];
+    const Vec3 at = above < 0 ? body[target] * along : lerp(body[above], body[target], along);
     Joint joint;
     joint.name = name;
     joint.parent = parent.empty() ? -1 : out.joint.at(parent);
@@ -130,13 +131,13 @@ inline MadeUp make_up(const std::vector<Line>& lines, const std::string& left,
     out.skeleton.joints.push_back(joint);
   };
   for (const Line& line : lines) {
-    const int place = index(line.place);
+    const int target = index(line.target);
     if (line.name.find('*') == std::string::npos) {
-      add(line.name, line.parent, place, line.along);
+      add(line.name, line.parent, target, line.along);
       continue;
     }
-    add(with_side(line.name, left), with_side(line.parent, left), place, line.along);
-    add(with_side(line.name, right), with_side(line.parent, right), kHumanMirror[place],
+    add(with_side(line.name, left), with_side(line.parent, left), target, line.along);
+    add(with_side(line.name, right), with_side(line.parent, right), kHumanMirror[target],
         line.along);
   }
   return out;
@@ -152,7 +153,7 @@ inline Anonymous anonymous(const Clip& clip, unsigned seed) {
   std::mt19937 random(seed);
   const size_t joints = clip.joints();
   Anonymous out{{{}, clip.frame_time, clip.frames, {}, {}}, {}};
-  std::vector<int> place(joints, -1), waiting;
+  std::vector<int> new_index(joints, -1), waiting;
   for (size_t j = 0; j < joints; ++j) {
     if (clip.skeleton.joints[j].parent < 0) waiting.push_back(static_cast<int>(j));
   }
@@ -160,11 +161,11 @@ inline Anonymous anonymous(const Clip& clip, unsigned seed) {
     const size_t pick = random() % waiting.size();
     const int joint = waiting[pick];
     waiting.erase(waiting.begin() + static_cast<long>(pick));
-    place[joint] = static_cast<int>(out.order.size());
+    new_index[joint] = static_cast<int>(out.order.size());
     out.order.push_back(joint);
     Joint copy = clip.skeleton.joints[joint];
     copy.name = "q" + std::to_string(random() % 100000);
-    if (copy.parent >= 0) copy.parent = place[copy.parent];
+    if (copy.parent >= 0) copy.parent = new_index[copy.parent];
     out.clip.skeleton.joints.push_back(copy);
     for (size_t j = 0; j < joints; ++j) {
       if (clip.skeleton.joints[j].parent == joint) waiting.push_back(static_cast<int>(j));

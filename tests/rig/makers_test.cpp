@@ -112,10 +112,10 @@ Maker plain(const PlainNames& n) {
     }
     return std::string();
   };
-  const auto add = [&](const char* joint, const std::string& parent, HumanJoint place,
+  const auto add = [&](const char* joint, const std::string& parent, HumanJoint target,
                        float along = 1) {
     const bool is_human = joint != n.root && joint != n.finger;
-    if (*joint) out.lines.push_back({joint, parent, place, along, is_human ? index(place) : -1});
+    if (*joint) out.lines.push_back({joint, parent, target, along, is_human ? index(target) : -1});
   };
   add(n.root, "", hips, 0);
   add(n.hips, n.root, hips);

@@ -79,7 +79,7 @@ TEST(Mapping, ends_of_limbs_and_numbered_pieces_obey_a_standards_own_name) {
 
 TEST(Mapping, a_foot_below_an_ankle_without_toes_is_its_front) {
   std::vector<Line> lines = kUnrealGrouped;
-  std::erase_if(lines, [](const Line& l) { return l.place == left_toes; });
+  std::erase_if(lines, [](const Line& l) { return l.target == left_toes; });
   for (Line& line : lines) {
     if (line.name == "ankle_*") line.human = index(left_foot);
     if (line.name == "foot_*") line.human = index(left_toes);

@@ -9,7 +9,8 @@ namespace panache::test {
 // A maker's rig as a clip, and where its joints come from.
 struct Character {
   Clip clip;
-  std::vector<int> place;  // [joints]: the human joint whose frame each one follows, -1 for none.
+  std::vector<int>
+      followed;  // [joints]: the human joint whose frame each one follows, -1 for none.
 };
 
 inline Vec3 to_z_up(Vec3 v) { return {v.x, -v.z, v.y}; }
@@ -69,17 +70,17 @@ inline Character put_on(const Maker& maker, const Clip& motion, float turn = 0,
     joint.name = name;
     joint.parent = parent.empty() ? -1 : joint_of.at(parent);
     Vec3 at = above < 0 ? body[human] * along : lerp(body[above], body[human], along);
-    int place = along < 1 ? above : human;
-    if (above < 0 && along < 1) place = joint.parent < 0 ? -1 : out.place[joint.parent];
-    const Quat rest = place < 0 ? Quat{} : rest_turn(maker.rest, place);
+    int human_frame = along < 1 ? above : human;
+    if (above < 0 && along < 1) human_frame = joint.parent < 0 ? -1 : out.followed[joint.parent];
+    const Quat rest = human_frame < 0 ? Quat{} : rest_turn(maker.rest, human_frame);
     t_axes.push_back(maker.axes == Axes::own ? random_rotation(random, 3) : conjugate(axes * rest));
     const size_t i = t_position.size();
     t_position.push_back(at);
     const auto world_rest = [&](size_t j) {
-      const int follows = out.place[j];
+      const int follows = out.followed[j];
       return axes * (follows < 0 ? Quat{} : rest_turn(maker.rest, follows)) * t_axes[j];
     };
-    out.place.push_back(place);
+    out.followed.push_back(human_frame);
     if (joint.parent < 0) {
       joint.offset = rotate(axes, at) * units;
       joint.rest = world_rest(i);
@@ -95,7 +96,7 @@ inline Character put_on(const Maker& maker, const Clip& motion, float turn = 0,
     out.clip.skeleton.joints.push_back(joint);
   };
   for (const Line& line : maker.lines) {
-    const int human = index(line.place);
+    const int human = index(line.target);
     if (line.name.find('*') == std::string::npos) {
       add(line.name, line.parent, human, line.along);
       continue;
@@ -124,7 +125,7 @@ inline Character put_on(const Maker& maker, const Clip& motion, float turn = 0,
     bool placed = false;
     for (size_t j = 0; j < joints; ++j) {
       const Joint& joint = out.clip.skeleton.joints[j];
-      const int follows = out.place[j];
+      const int follows = out.followed[j];
       world[j] = follows < 0 ? axes * t_axes[j] : to_file * human_rotation[follows] * t_axes[j];
       pose.rotations[j] =
           joint.parent < 0 ? world[j] : normalized(conjugate(world[joint.parent]) * world[j]);

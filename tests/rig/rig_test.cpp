@@ -379,9 +379,9 @@ TEST(Rig, the_root_turns_and_moves_all_of_the_body) {
       EXPECT_LT(length(after.positions[j] - want), 1e-5f) << human_joint_name(j);
     }
     // (1, 2, -0.5) in metres and Y up, turned likewise.
-    const Vec3 place = rotate(rotation_y(turn), Vec3{1, 2, -0.5f} - about) + about + move;
+    const Vec3 expected = rotate(rotation_y(turn), Vec3{1, 2, -0.5f} - about) + about + move;
     const Vec3 at = out.translations[joints - 1] * 0.01f;
-    EXPECT_LT(length(Vec3{at.x, at.z, -at.y} - place), 1e-5f);
+    EXPECT_LT(length(Vec3{at.x, at.z, -at.y} - expected), 1e-5f);
     std::ranges::copy(two.pose(f).translations, out.translations.begin());
     std::ranges::copy(two.pose(f).rotations, out.rotations.begin());
     created->transform_root(0, about, {}, out.pose());

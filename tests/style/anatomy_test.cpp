@@ -36,7 +36,7 @@ class AnatomyTest : public testing::Test {
     anatomy.step(body_, rig_.rig(), {}, change);
     return change;
   }
-  Vec3 way(const BodyChange& change, HumanJoint from, HumanJoint to) const {
+  Vec3 direction(const BodyChange& change, HumanJoint from, HumanJoint to) const {
     HumanPositions joints;
     changed_joints(body_, change, joints);
     return normalized(joints[index(to)] - joints[index(from)]);
@@ -45,7 +45,7 @@ class AnatomyTest : public testing::Test {
     const Vec3 fingers = rotate(body_.hands[0], rig_.rig().hand_direction(0));
     const Vec3 now =
         rotate(change.rotations[index(left_hand)], rotate(rotation_y(-body_.facing), fingers));
-    return degrees_between(way(change, left_lower_arm, left_hand), now);
+    return degrees_between(direction(change, left_lower_arm, left_hand), now);
   }
 
   Clip clip_;
@@ -90,7 +90,7 @@ TEST_F(AnatomyTest, a_wrist_that_the_input_bends_too_far_bends_no_further) {
   ASSERT_NEAR(before, 100, 8);
   // Some way further, about the axis of the bend.
   const Vec3 fingers = rotate(body_.hands[0], rig_.rig().hand_direction(0));
-  const Vec3 about = normalized(cross(way({}, left_lower_arm, left_hand), fingers));
+  const Vec3 about = normalized(cross(direction({}, left_lower_arm, left_hand), fingers));
   const BodyChange asked = turned(left_hand, left_hand, axis_angle(about, 40 * kDegree));
   ASSERT_GT(wrist(asked), before + 35);
   const BodyChange given = kept(asked);
@@ -103,7 +103,7 @@ TEST_F(AnatomyTest, knees_do_not_bend_forward_nor_elbows_back) {
   const BodyChange elbow = kept(turned(left_lower_arm, left_hand, axis_angle(kLeft, 0.9f)));
   const auto bend = [&](const BodyChange& change, HumanJoint upper, HumanJoint lower,
                         HumanJoint end) {
-    const Vec3 above = way(change, upper, lower), below = way(change, lower, end);
+    const Vec3 above = direction(change, upper, lower), below = direction(change, lower, end);
     return dot(cross(above, below), kLeft) > 0 ? degrees_between(above, below)
                                                : -degrees_between(above, below);
   };
@@ -119,9 +119,9 @@ TEST_F(AnatomyTest, a_twist_of_the_upper_arm_does_not_bend_its_elbow_the_wrong_w
     hand = elbow +
            rotate(axis_angle(rotate(rotation_y(body_.facing), kLeft), -60 * kDegree), hand - elbow);
   }
-  const Vec3 arm = way({}, left_upper_arm, left_lower_arm);
+  const Vec3 arm = direction({}, left_upper_arm, left_lower_arm);
   const auto ahead = [&](const BodyChange& change) {
-    return dot(way(change, left_lower_arm, left_hand), Vec3{0, 0, 1});
+    return dot(direction(change, left_lower_arm, left_hand), Vec3{0, 0, 1});
   };
   ASSERT_GT(ahead({}), 0.7f);
   const BodyChange twist = turned(left_upper_arm, left_hand, axis_angle(arm, 160 * kDegree));

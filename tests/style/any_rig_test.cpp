@@ -275,7 +275,7 @@ TEST(AnyRig, strength_zero_is_the_input_bit_for_bit) {
 // `clip` without the joints whose names hold one of `words`; their children hang on their parents.
 Clip without(const Clip& clip, const std::vector<std::string>& words) {
   Clip out{{}, clip.frame_time, clip.frames, {}, {}};
-  std::vector<int> place(clip.joints(), -1), kept_above(clip.joints(), -1);
+  std::vector<int> new_index(clip.joints(), -1), kept_above(clip.joints(), -1);
   for (size_t j = 0; j < clip.joints(); ++j) {
     const Joint& joint = clip.skeleton.joints[j];
     const bool drop = std::any_of(words.begin(), words.end(), [&](const std::string& word) {
@@ -284,9 +284,9 @@ Clip without(const Clip& clip, const std::vector<std::string>& words) {
     const int above = joint.parent < 0 ? -1 : kept_above[joint.parent];
     kept_above[j] = drop ? above : static_cast<int>(j);
     if (drop) continue;
-    place[j] = static_cast<int>(out.joints());
+    new_index[j] = static_cast<int>(out.joints());
     Joint copy = joint;
-    copy.parent = above < 0 ? -1 : place[above];
+    copy.parent = above < 0 ? -1 : new_index[above];
     out.skeleton.joints.push_back(copy);
   }
   out.resize(clip.frames);
@@ -300,18 +300,18 @@ Clip without(const Clip& clip, const std::vector<std::string>& words) {
     }
     world_pose(clip.skeleton, {rotations, at}, {rotations, at});
     for (size_t j = 0; j < clip.joints(); ++j) {
-      if (place[j] < 0) continue;
+      if (new_index[j] < 0) continue;
       const int parent = clip.skeleton.joints[j].parent;
       const int above = parent < 0 ? -1 : kept_above[parent];
       const Quat q = above < 0 ? rotations[j] : conjugate(rotations[above]) * rotations[j];
       const Vec3 t = above < 0 ? at[j] : rotate(conjugate(rotations[above]), at[j] - at[above]);
-      Joint& joint = out.skeleton.joints[place[j]];
+      Joint& joint = out.skeleton.joints[new_index[j]];
       if (f < 0) {
         joint.rest = normalized(q);
         joint.offset = t;
       } else {
-        out.pose(f).rotations[place[j]] = normalized(q);
-        out.pose(f).translations[place[j]] = t;
+        out.pose(f).rotations[new_index[j]] = normalized(q);
+        out.pose(f).translations[new_index[j]] = t;
       }
     }
   }

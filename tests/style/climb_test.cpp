@@ -84,14 +84,14 @@ float height_after(const std::vector<float>& heights) {
   Climb climb;
   StepTime time{1 / 30.0, 1 / 30.0f, true};
   BodyPose body;
-  float way = 0;
+  float distance = 0;
   for (size_t i = 0; i < heights.size(); ++i) {
     const int toe = index(kToes[i % 2]);
     for (int f = 0; f < 15; ++f) {
-      way += 0.6f / 15;
+      distance += 0.6f / 15;
       body.joints[toe] = {0, heights[i], 0.6f * static_cast<float>(i + 1)};
       body.joints[index(kToes[1 - i % 2])].z += 0.1f;  // Swings.
-      climb.step(body, {0, 0, -way / 5}, time);
+      climb.step(body, {0, 0, -distance / 5}, time);
       time.first = false;
     }
   }

@@ -36,8 +36,8 @@ class EnergyTest : public testing::Test {
     float min = 9, max = -9;
     for (int f = clip.frames / 2; f < clip.frames; ++f) {
       rig.read(clip.pose(f), body);
-      const Vec3 way = body.joints[index(hand)] - body.joints[index(hips)];
-      min = std::min(min, way.z), max = std::max(max, way.z);
+      const Vec3 reach = body.joints[index(hand)] - body.joints[index(hips)];
+      min = std::min(min, reach.z), max = std::max(max, reach.z);
     }
     return double{max - min};
   }

@@ -22,7 +22,7 @@ Points once(const GesturePose& peak) {
   return points;
 }
 // One that goes there and then to the other side.
-Points both_ways(const GesturePose& peak) {
+Points to_both_sides(const GesturePose& peak) {
   Points points = once(peak);
   for (const GesturePose& back : once(scaled(-1, peak))) points.push_back(back);
   return points;
@@ -45,11 +45,11 @@ TEST(GestureName, tells_where_the_head_goes) {
   EXPECT_EQ(first_of(once(turning(head, {0, 1.1f, 0}))), "glances over the left shoulder");
   EXPECT_EQ(first_of(once(turning(head, {0, -0.7f, 0}, turning(spine, {0, -0.5f, 0})))),
             "glances over the right shoulder");
-  EXPECT_EQ(first_of(both_ways(turning(head, {0, 0.6f, 0}))), "glances left and right");
-  EXPECT_EQ(first_of(both_ways(turning(head, {0, -0.6f, 0}))), "glances right and left");
+  EXPECT_EQ(first_of(to_both_sides(turning(head, {0, 0.6f, 0}))), "glances left and right");
+  EXPECT_EQ(first_of(to_both_sides(turning(head, {0, -0.6f, 0}))), "glances right and left");
   EXPECT_EQ(first_of(once(turning(head, {0.6f, 0, 0}))), "looks down");
   EXPECT_EQ(first_of(once(turning(head, {-0.6f, 0, 0}))), "looks up");
-  EXPECT_EQ(first_of(both_ways(turning(head, {0.6f, 0, 0}))), "nods");
+  EXPECT_EQ(first_of(to_both_sides(turning(head, {0.6f, 0, 0}))), "nods");
   EXPECT_EQ(first_of(once(turning(head, {0, 0, 0.6f}))), "tilts the head to the right");
 }
 
@@ -58,7 +58,7 @@ TEST(GestureName, tells_where_the_torso_goes) {
   EXPECT_EQ(first_of(once(turning(spine, {-0.6f, 0, 0}))), "leans back");
   EXPECT_EQ(first_of(once(turning(chest, {0, 0.6f, 0}))), "twists to the left");
   EXPECT_EQ(first_of(once(turning(hips, {0, 0, 0.6f}))), "leans to the right");
-  EXPECT_EQ(first_of(both_ways(turning(hips, {0, 0, 0.6f}))), "sways right and left");
+  EXPECT_EQ(first_of(to_both_sides(turning(hips, {0, 0, 0.6f}))), "sways right and left");
 }
 
 TEST(GestureName, tells_where_the_arms_go) {

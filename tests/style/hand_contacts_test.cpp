@@ -89,10 +89,10 @@ TEST(HandContacts, a_hand_at_the_head_stays_at_the_place_of_the_head) {
   const BodyChange wanted =
       turned({{neck, axis_angle(kX, 0.5f)}, {left_upper_arm, axis_angle(kZ, -0.9f)}});
   const Stepped out = held(body, wanted);
-  const Vec3 place =
+  const Vec3 position =
       rotate(rotation_y(-body.facing), body.joints[index(left_hand)] - body.joints[index(head)]);
   const Vec3 now = out.joints[index(left_hand)] - out.joints[index(head)];
-  EXPECT_LT(length(now - rotate(wanted.rotations[index(head)], place)), 1e-3f);
+  EXPECT_LT(length(now - rotate(wanted.rotations[index(head)], position)), 1e-3f);
   EXPECT_EQ(out.change.rotations[index(right_upper_arm)], wanted.rotations[index(right_upper_arm)]);
   EXPECT_EQ(out.change.rotations[index(chest)], wanted.rotations[index(chest)]);
 }

@@ -34,7 +34,7 @@ class OddSteps : public testing::Test {
     strengths_[static_cast<size_t>(*model_->find_style("moping"))] = 1;
   }
 
-  static std::vector<LiveOptions> ways() {
+  static std::vector<LiveOptions> option_sets() {
     LiveOptions late;
     late.max_lag = 1.2, late.max_lead = 0.2, late.skip_cycles = true;
     return {LiveOptions{}, late};
@@ -87,7 +87,7 @@ class OddSteps : public testing::Test {
 };
 
 TEST_F(OddSteps, a_pause_without_end_is_forgotten_like_any_pause) {
-  for (const LiveOptions& options : ways()) {
+  for (const LiveOptions& options : option_sets()) {
     LiveStylizer after_an_hour = character(options), after_a_second = character(options);
     const Clip hour = play(after_an_hour, 3600), second = play(after_a_second, 1);
     // The same but for the filter's mean of the gate, which takes three seconds to forget: a foot
@@ -104,7 +104,7 @@ TEST_F(OddSteps, a_pause_without_end_is_forgotten_like_any_pause) {
 }
 
 TEST_F(OddSteps, a_clock_that_stands_still_or_goes_back_stands_still) {
-  for (const LiveOptions& options : ways()) {
+  for (const LiveOptions& options : option_sets()) {
     LiveStylizer still = character(options);
     const Clip expected = play(still, 0);
     for (const double seconds : {-0.0, -1.0, -1e30, -kInfinity, kNan, 5e-324, 1e-310, 1e-40}) {
@@ -132,7 +132,7 @@ TEST_F(OddSteps, a_crowd_takes_the_same_seconds_as_one_alone) {
 }
 
 TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) {
-  const LiveOptions late = ways()[1];
+  const LiveOptions late = option_sets()[1];
   LiveStylizer even = character({});
   const Clip expected = play(even, kStepSeconds);
   // A body that jumps far away and back starts afresh, as after a pause.
@@ -140,7 +140,7 @@ TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) 
   const Clip afresh = play(paused, 1);
   for (const double size : {1e4, 9e8, 1e18, 3e38, kInfinity, kNan, 1e-40}) {
     const auto number = static_cast<float>(size);
-    const auto place = [&](size_t joint) {
+    const auto position = [&](size_t joint) {
       return [=](Pose pose, auto&, LiveStylizer&) {
         pose.translations[joint] = {number, -number, number};
       };
@@ -164,7 +164,7 @@ TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) 
       play(odd_and_late, kStepSeconds, spoil);  // Where it is in its cycle is up to its lag.
     };
     for (const size_t joint : {size_t{0}, size_t{3}, size_t{14}, walk_.joints() - 1}) {
-      check(place(joint));
+      check(position(joint));
       check(turn(joint));
     }
     check(wish);
@@ -185,7 +185,7 @@ TEST_F(OddSteps, a_body_on_a_vehicle_keeps_its_style_where_the_limit_allows_its_
     return out;
   };
   const auto infinity = static_cast<float>(kInfinity);
-  for (const LiveOptions& options : ways()) {
+  for (const LiveOptions& options : option_sets()) {
     for (const float speed : {0.0f, 10.0f, 40.0f, 80.0f}) {
       const Clip free = ride(speed, infinity, options);
       EXPECT_TRUE(same_rotations(free, ride(speed, 100, options))) << speed;

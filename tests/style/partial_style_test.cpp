@@ -105,8 +105,8 @@ TEST_F(PartialStyle, keeps_the_way_that_it_has_gone_where_the_legs_are_left_alon
   part(shape, Region::legs) = 0;
   const Clip out = run(shape, {1, 0.5f}, 60);
   const auto beyond_input = [&](int frame) {
-    const Vec3 way = out.pose(frame).translations[0] - clip_.pose(frame).translations[0];
-    return Vec3{way.x, 0, way.z};
+    const Vec3 travel = out.pose(frame).translations[0] - clip_.pose(frame).translations[0];
+    return Vec3{travel.x, 0, travel.z};
   };
   // Half a second after the change it is eased in to 3 %, and the rest is a matter of millimetres.
   EXPECT_GT(length(beyond_input(75)), 0.02f);

@@ -18,11 +18,11 @@ std::shared_ptr<const Model> predicting_model(float size) {
   return *Model::parse(format_safetensors(file), "test model");
 }
 
-// A body whose joints all are at `height` and whose ground is at `way` along z.
-void push(PosePredictor& predictor, double time, float height, float way) {
+// A body whose joints all are at `height` and whose ground is at `distance` along z.
+void push(PosePredictor& predictor, double time, float height, float distance) {
   HumanPositions body;
   for (int j = 0; j < kHumanJoints; ++j) body[j] = {0.1f * static_cast<float>(j), height, 0};
-  predictor.push(time, body, {{0, 0, way}, 0});
+  predictor.push(time, body, {{0, 0, distance}, 0});
 }
 
 TEST(PosePredictor, constant_velocity_is_continued) {

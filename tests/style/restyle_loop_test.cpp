@@ -83,41 +83,41 @@ TEST(RestyleLoop, it_begins_at_the_first_frame_and_ends_at_the_last) {
 }
 
 // What the toes and the root go from the first frame to the last.
-struct Ways {
+struct Travel {
   Vec3 left, right, root;
   float turned;
 };
-Ways ways(const Clip& clip) {
+Travel travel_of(const Clip& clip) {
   PosedRig reader(*Rig::create(clip));
   Observation a, b;
   observe(reader, clip.pose(0), 0, a);
   observe(reader, clip.pose(clip.frames - 1), a.root.facing, b);
-  const auto way = [&](HumanJoint joint) {
+  const auto travel = [&](HumanJoint joint) {
     return b.world.joints[index(joint)] - a.world.joints[index(joint)];
   };
-  return {way(HumanJoint::left_toes), way(HumanJoint::right_toes),
+  return {travel(HumanJoint::left_toes), travel(HumanJoint::right_toes),
           b.root.position - a.root.position, b.root.facing - a.root.facing};
 }
 
 TEST(RestyleLoop, both_feet_travel_as_the_root_does) {
   const Clip cycle = walk_cycle();
   for (const char* style : {"old", "proud", "zombie"}) {
-    const Ways way = ways(styled(cycle, track(style), LoopMode::detect).clip);
-    EXPECT_LT(std::abs(way.turned), 0.02f);
-    EXPECT_LT(length(way.left - way.right), 0.01f) << style;
-    EXPECT_GT(length(way.root), 0.45f) << style;
+    const Travel travel = travel_of(styled(cycle, track(style), LoopMode::detect).clip);
+    EXPECT_LT(std::abs(travel.turned), 0.02f);
+    EXPECT_LT(length(travel.left - travel.right), 0.01f) << style;
+    EXPECT_GT(length(travel.root), 0.45f) << style;
   }
 }
 
 TEST(RestyleLoop, a_loop_that_turns_closes_and_turns_as_far) {
   const Clip cycle = walk_cycle(1.2f, 0.8f);
   ASSERT_TRUE(is_loop(seam_of(cycle), cycle.frame_time));
-  const float turned = ways(cycle).turned;
+  const float turned = travel_of(cycle).turned;
   EXPECT_GT(turned, 0.5f);
   for (const char* style : {"old", "proud", "zombie"}) {
     const Clip clip = styled(cycle, track(style), LoopMode::detect).clip;
     EXPECT_LT(seam_of(clip).worst, 1e-4f) << style;
-    EXPECT_NEAR(ways(clip).turned, turned, 0.05f) << style;
+    EXPECT_NEAR(travel_of(clip).turned, turned, 0.05f) << style;
   }
 }
 

@@ -38,7 +38,7 @@ class SavedState : public testing::Test {
     strengths_.resize(model_->styles().size());
     strengths_[static_cast<size_t>(*model_->find_style("old"))] = 1;
   }
-  static std::vector<LiveOptions> ways() {
+  static std::vector<LiveOptions> option_sets() {
     LiveOptions late;
     late.max_lag = 1.2, late.max_lead = 0.2, late.skip_cycles = true;
     return {LiveOptions{}, late};
@@ -71,7 +71,7 @@ class SavedState : public testing::Test {
 };
 
 TEST_F(SavedState, has_nothing_of_what_its_memory_held_before) {
-  for (const LiveOptions& options : ways()) {
+  for (const LiveOptions& options : option_sets()) {
     // From the first step to a ring that has gone round.
     for (const int frames : {0, 1, 2, 20, 100, 399}) {
       std::vector<std::byte> states[2];
@@ -90,7 +90,7 @@ TEST_F(SavedState, has_nothing_of_what_its_memory_held_before) {
 }
 
 TEST_F(SavedState, after_a_reset_or_a_pause_has_nothing_of_the_past) {
-  for (const LiveOptions& options : ways()) {
+  for (const LiveOptions& options : option_sets()) {
     for (const int frames : {1, 2, 20, 150}) {
       LiveStylizer fresh = character(options), reset = character(options),
                    paused = character(options);
@@ -114,7 +114,7 @@ TEST_F(SavedState, after_a_reset_or_a_pause_has_nothing_of_the_past) {
 TEST_F(SavedState, goes_on_bit_for_bit_after_it_was_restored) {
   const int old = *model_->find_style("old"), scared = *model_->find_style("scared");
   strengths_[static_cast<size_t>(scared)] = 1;
-  for (const LiveOptions& options : ways()) {
+  for (const LiveOptions& options : option_sets()) {
     LiveStylizer one = character(options), other = character(options);
     for (LiveStylizer* each : {&one, &other}) {
       each->stylizer().set_person(person_of_seed(*model_, 3, 1));

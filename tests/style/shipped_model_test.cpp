@@ -110,9 +110,11 @@ TEST(ShippedModels, the_int8_one_styles_like_the_float_one) {
       rig.read(a.pose(f), one);
       rig.read(b.pose(f), other);
       for (int j = 0; j < kHumanJoints; ++j) {
-        const auto place = [&](const BodyPose& body) { return body.joints[j] - body.joints[0]; };
-        apart += static_cast<double>(length(place(one) - place(other)));
-        changed += static_cast<double>(length(place(one) - place(in)));
+        const auto from_hips = [&](const BodyPose& body) {
+          return body.joints[j] - body.joints[0];
+        };
+        apart += static_cast<double>(length(from_hips(one) - from_hips(other)));
+        changed += static_cast<double>(length(from_hips(one) - from_hips(in)));
       }
     }
     // Weights are off by a hundredth of their usual size in five layers, one after another, and the

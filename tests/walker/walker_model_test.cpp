@@ -77,9 +77,9 @@ TEST(WalkerModel, explains_wrong_tensors) {
 TEST(WalkerModel, rejects_numbers_that_no_gait_has) {
   const std::string message = "w.safetensors: tensor 'walk.numbers' holds numbers that no gait has";
   // Slowest, cadence, lift before landing.
-  for (const auto& [place, value] : {std::pair{1, 0.0f}, std::pair{3, -1.0f}, std::pair{7, 0.0f}}) {
+  for (const auto& [index, value] : {std::pair{1, 0.0f}, std::pair{3, -1.0f}, std::pair{7, 0.0f}}) {
     TensorFile file = made_up_file();
-    file.tensors["walk.numbers"].values[place] = value;
+    file.tensors["walk.numbers"].values[index] = value;
     expect_rejected(file, message);
   }
 }

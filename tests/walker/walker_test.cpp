@@ -42,13 +42,13 @@ HumanPositions positions_of(Joints& local) {
 }
 
 // Someone who is steered, and what was seen of her.
-struct Seen {
+struct Recording {
   std::vector<HumanPositions> frames;
   double fps;
 };
 template <class Steer>
-Seen watch(Walker& walker, double seconds, double fps, Steer steer) {
-  Seen seen{{}, fps};
+Recording watch(Walker& walker, double seconds, double fps, Steer steer) {
+  Recording seen{{}, fps};
   Joints joints;
   for (int f = 0; f < seconds * fps; ++f) {
     const auto [speed, turn] = steer(f / fps);
@@ -57,7 +57,7 @@ Seen watch(Walker& walker, double seconds, double fps, Steer steer) {
   }
   return seen;
 }
-Seen watch_steady(float speed, float turn_deg, double seconds = 6, double fps = 120) {
+Recording watch_steady(float speed, float turn_deg, double seconds = 6, double fps = 120) {
   Walker walker(shipped());
   const auto steady = [&](double) { return std::pair{speed, turn_deg * kDegree}; };
   watch(walker, 5, 60, steady);
@@ -65,22 +65,22 @@ Seen watch_steady(float speed, float turn_deg, double seconds = 6, double fps = 
 }
 
 // Mean horizontal speed of the toes that are on the ground, m/s.
-float skate(const Seen& seen) {
-  double way = 0;
+float skate(const Recording& seen) {
+  double distance = 0;
   int moves = 0;
   for (size_t f = 1; f < seen.frames.size(); ++f) {
     for (const HumanJoint toe : kToes) {
       const Vec3 a = seen.frames[f - 1][index(toe)], b = seen.frames[f][index(toe)];
       if (a.y > 0.002f || b.y > 0.002f) continue;
-      way += static_cast<double>(std::hypot(b.x - a.x, b.z - a.z));
+      distance += static_cast<double>(std::hypot(b.x - a.x, b.z - a.z));
       ++moves;
     }
   }
-  return static_cast<float>(way * seen.fps / std::max(moves, 1));
+  return static_cast<float>(distance * seen.fps / std::max(moves, 1));
 }
 
 // Largest third difference of a joint's positions at 30 frames a second, m/s^3.
-float largest_jerk(const Seen& seen) {
+float largest_jerk(const Recording& seen) {
   const size_t h = static_cast<size_t>(seen.fps / 30);
   float max = 0;
   for (size_t f = 0; f + 3 * h < seen.frames.size(); ++f) {
@@ -95,10 +95,10 @@ float largest_jerk(const Seen& seen) {
 
 TEST(Walker, goes_as_far_as_its_speed_says) {
   for (const float speed : {0.3f, 0.8f, 1.4f, 1.9f, 3.0f, 4.5f}) {
-    const Seen seen = watch_steady(speed, 0);
-    const Vec3 way = seen.frames.back()[0] - seen.frames.front()[0];
+    const Recording seen = watch_steady(speed, 0);
+    const Vec3 travel = seen.frames.back()[0] - seen.frames.front()[0];
     const float seconds = static_cast<float>((seen.frames.size() - 1) / seen.fps);
-    EXPECT_NEAR(std::hypot(way.x, way.z), speed * seconds, 0.05f * speed * seconds) << speed;
+    EXPECT_NEAR(std::hypot(travel.x, travel.z), speed * seconds, 0.05f * speed * seconds) << speed;
   }
 }
 
@@ -109,7 +109,7 @@ TEST(Walker, turns_as_fast_as_asked) {
     const auto steady = [&, s = speed, t = turn](double) { return std::pair{s, t * kDegree}; };
     watch(walker, 5, 60, steady);
     const float begin = walker.root().facing;
-    const Seen seen = watch(walker, 4, 60, steady);
+    const Recording seen = watch(walker, 4, 60, steady);
     EXPECT_NEAR(walker.root().facing - begin, 4 * turn * kDegree,
                 0.05f * 4 * std::abs(turn) * kDegree);
     // The body turns with its path.
@@ -125,7 +125,7 @@ TEST(Walker, plants_its_feet) {
        {std::pair{0.0f, 60.0f}, std::pair{0.3f, 0.0f}, std::pair{0.8f, 0.0f}, std::pair{1.4f, 0.0f},
         std::pair{1.1f, 60.0f}, std::pair{1.9f, 0.0f}, std::pair{3.0f, 0.0f},
         std::pair{3.0f, 40.0f}, std::pair{4.3f, 0.0f}}) {
-    const Seen seen = watch_steady(speed, turn);
+    const Recording seen = watch_steady(speed, turn);
     EXPECT_LT(skate(seen), 0.1f) << speed << " m/s, " << turn << " degrees/s";
     float lowest = 1, ankles = 1;
     for (const HumanPositions& frame : seen.frames) {
@@ -138,7 +138,7 @@ TEST(Walker, plants_its_feet) {
 }
 
 TEST(Walker, walks_with_a_foot_down_and_runs_with_flights) {
-  const auto air = [](const Seen& seen) {
+  const auto air = [](const Recording& seen) {
     int flying = 0;
     for (const HumanPositions& frame : seen.frames) {
       flying += std::min(frame[index(kToes[0])].y, frame[index(kToes[1])].y) > 0.03f;
@@ -150,7 +150,7 @@ TEST(Walker, walks_with_a_foot_down_and_runs_with_flights) {
 }
 
 TEST(Walker, swings_its_arms_against_its_legs) {
-  const Seen seen = watch_steady(1.2f, 0);
+  const Recording seen = watch_steady(1.2f, 0);
   double sum = 0;
   for (const HumanPositions& frame : seen.frames) {
     const auto ahead = [&](HumanJoint left, HumanJoint right) {
@@ -203,7 +203,7 @@ TEST(Walker, moves_the_same_at_any_rate) {
 
 TEST(Walker, stands_still_and_breathes) {
   Walker walker(shipped());
-  const Seen seen = watch(walker, 20, 60, [](double) { return std::pair{0.0f, 0.0f}; });
+  const Recording seen = watch(walker, 20, 60, [](double) { return std::pair{0.0f, 0.0f}; });
   float min = 1, max = -1;
   for (const HumanPositions& frame : seen.frames) {
     for (const HumanJoint toe : kToes) {
@@ -222,7 +222,7 @@ float higher_left(const HumanPositions& frame, HumanJoint left, HumanJoint right
 
 TEST(Walker, standing_hips_tilt_with_the_weight_and_shoulders_stay_level) {
   Walker walker(shipped());
-  const Seen seen = watch(walker, 60, 30, [](double) { return std::pair{0.0f, 0.0f}; });
+  const Recording seen = watch(walker, 60, 30, [](double) { return std::pair{0.0f, 0.0f}; });
   const auto bent = [](const HumanPositions& body) {
     return body[index(HumanJoint::chest)].z - body[index(HumanJoint::hips)].z;
   };
@@ -261,10 +261,10 @@ TEST(Walker, who_turns_on_the_spot_has_her_weight_on_both_feet_in_turn) {
 TEST(Walker, starts_and_comes_to_stand_under_its_body) {
   for (const float speed : {0.4f, 1.2f, 3.0f, 4.5f}) {
     Walker walker(shipped());
-    const Seen start = watch(walker, 5, 120, [&](double t) {
+    const Recording start = watch(walker, 5, 120, [&](double t) {
       return std::pair{t < 0.5 ? 0.0f : speed, 0.0f};
     });
-    const Seen stop = watch(walker, 6, 120, [](double) { return std::pair{0.0f, 0.0f}; });
+    const Recording stop = watch(walker, 6, 120, [](double) { return std::pair{0.0f, 0.0f}; });
     // Real takes have up to 2,200 m/s^3 in walks and 4,900 in runs.
     EXPECT_LT(largest_jerk(start), speed < 2 ? 2200 : 4900) << speed;
     EXPECT_LT(largest_jerk(stop), speed < 2 ? 2200 : 4900) << speed;
@@ -287,7 +287,7 @@ TEST(Walker, never_pops_when_steered_wildly) {
   };
   float speed = 0, turn = 0;
   int last = -1;
-  const Seen seen = watch(walker, 60, 120, [&](double t) {
+  const Recording seen = watch(walker, 60, 120, [&](double t) {
     if (const int now = static_cast<int>(t / 0.75); now != last) {
       last = now;
       speed = random() < 0.3f ? 0 : random() * kMaxWalkerSpeed;
