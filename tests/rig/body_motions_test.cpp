@@ -5,20 +5,14 @@
 #include "clip/bvh.h"
 #include "clip/gltf.h"
 #include "clip/make_character.h"
+#include "clip/rescale.h"
 
 namespace panache {
 namespace {
 
 using test::GltfParts;
 using test::Json;
-
-size_t node_named(const GltfParts& parts, const std::string& name) {
-  for (size_t n = 0; n < parts.json["nodes"].size(); ++n) {
-    if (parts.json["nodes"][n].value("name", "") == name) return n;
-  }
-  ADD_FAILURE() << "no node " << name;
-  return 0;
-}
+using test::node_called;
 
 // Adds an animation that turns these nodes by up to `angle` radians; the character rests in it
 // elsewhere. By itself it moves nothing.
@@ -28,7 +22,7 @@ void add_animation(GltfParts& parts, const std::string& name, const std::vector<
   parts.json["animations"].push_back({{"name", name}});
   const size_t times = parts.add_bounded(test::key_times(20), "SCALAR", 1);
   for (const std::string& node : nodes) {
-    const size_t n = node_named(parts, node);
+    const size_t n = node_called(parts, node);
     const Json rest = parts.json["nodes"][n].value("rotation", Json::array({0, 0, 0, 1}));
     std::vector<float> turns;
     for (int i = 0; i < 20; ++i) {

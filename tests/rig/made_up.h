@@ -81,14 +81,7 @@ struct MadeUp {
   std::vector<Vec3> positions;  // [joints], metres
 
   // One frame of T-pose.
-  Clip clip() const {
-    Clip out{skeleton, 1.0 / 30, 1, {}, {}};
-    for (const Joint& j : skeleton.joints) {
-      out.rotations.push_back({});
-      out.translations.push_back(j.offset);
-    }
-    return out;
-  }
+  Clip clip() const { return rest_clip(skeleton); }
 };
 
 inline std::string with_side(std::string text, const std::string& side) {
@@ -200,6 +193,22 @@ inline Clip random_clip(const Skeleton& skeleton, int frames, float largest, uns
     }
   }
   return out;
+}
+
+// The clip in other axes and units: `axes` turns its axes to the new ones.
+inline Clip in_axes(Clip clip, Quat axes, float scale, Vec3 shift = {}) {
+  std::vector<Joint>& joints = clip.skeleton.joints;
+  for (size_t i = 0; i < clip.rotations.size(); ++i) {
+    clip.translations[i] *= scale;
+    if (joints[i % joints.size()].parent >= 0) continue;
+    clip.rotations[i] = axes * clip.rotations[i];
+    clip.translations[i] = rotate(axes, clip.translations[i]) + shift;
+  }
+  for (Joint& joint : joints) {
+    joint.offset *= scale;
+    for (Vec3& end : joint.ends) end *= scale;
+  }
+  return clip;
 }
 
 // The angle between two directions in degrees, exact near zero.

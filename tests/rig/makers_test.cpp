@@ -35,35 +35,23 @@ Clip moving_body() {
   return out;
 }
 
-void expect_maps(const Clip& clip, const std::array<int, kHumanJoints>& want) {
+// `order`: of the joints of a clip whose own names say nothing.
+void expect_maps(const Clip& clip, const std::array<int, kHumanJoints>& want,
+                 const std::vector<int>& order = {}) {
   const Result<Rig> rig = Rig::create(clip);
   ASSERT_TRUE(rig.ok()) << rig.error().message;
-  const auto name = [&](int joint) {
-    return joint < 0 ? std::string("-") : clip.skeleton.joints[joint].name;
-  };
   for (int j = 0; j < kHumanJoints; ++j) {
-    EXPECT_EQ(name(rig->joints()[j]), name(want[j])) << human_joint_name(j);
+    int found = rig->joints()[j];
+    if (found >= 0 && !order.empty()) found = order[found];
+    EXPECT_EQ(found, want[j]) << human_joint_name(j);
   }
 }
 
-TEST(Makers, every_rig_maps_as_a_person_would_map_it) {
+TEST(Makers, every_rig_maps_as_a_person_would_map_it_in_motion_and_at_rest) {
   for (const Maker& maker : makers()) {
     SCOPED_TRACE(maker.name);
-    const Character character = put_on(maker, moving_body());
-    expect_maps(character.clip, expected_joints(maker, character.clip));
-  }
-}
-
-TEST(Makers, every_rig_maps_from_its_rest_pose_alone) {
-  for (const Maker& maker : makers()) {
-    SCOPED_TRACE(maker.name);
-    Clip clip = put_on(maker, moving_body()).clip;
-    clip.resize(1);
-    for (size_t j = 0; j < clip.joints(); ++j) {
-      clip.rotations[j] = clip.skeleton.joints[j].rest;
-      clip.translations[j] = clip.skeleton.joints[j].offset;
-    }
-    expect_maps(clip, expected_joints(maker, clip));
+    const Clip clip = put_on(maker, moving_body()).clip, rest = rest_clip(clip.skeleton);
+    for (const Clip& each : {clip, rest}) expect_maps(each, expected_joints(maker, each));
   }
 }
 
@@ -75,20 +63,7 @@ TEST(Makers, a_rig_whose_joints_are_shuffled_and_renamed_maps_by_its_shape) {
       SCOPED_TRACE(maker.name + std::string(", seed ") + std::to_string(seed));
       const Character character = put_on(maker, moving_body());
       const Anonymous nameless = anonymous(character.clip, seed);
-      std::array<int, kHumanJoints> want = expected_joints(maker, character.clip);
-      for (int& joint : want) {
-        const auto at = std::find(nameless.order.begin(), nameless.order.end(), joint);
-        joint = joint < 0 ? -1 : static_cast<int>(at - nameless.order.begin());
-      }
-      const Result<Rig> rig = Rig::create(nameless.clip);
-      ASSERT_TRUE(rig.ok()) << rig.error().message;
-      const auto name = [&](int joint) {
-        return joint < 0 ? std::string("-")
-                         : character.clip.skeleton.joints[nameless.order[joint]].name;
-      };
-      for (int j = 0; j < kHumanJoints; ++j) {
-        EXPECT_EQ(name(rig->joints()[j]), name(want[j])) << human_joint_name(j);
-      }
+      expect_maps(nameless.clip, expected_joints(maker, character.clip), nameless.order);
     }
   }
 }
@@ -194,12 +169,7 @@ class MoreMakers : public testing::TestWithParam<PlainNames> {};
 
 TEST_P(MoreMakers, maps_as_a_person_would_map_it) {
   const Maker maker = plain(GetParam());
-  Clip still{canonical_skeleton(), 1.0 / 30, 1, {}, {}};
-  for (const Joint& joint : still.skeleton.joints) {
-    still.rotations.push_back({});
-    still.translations.push_back(joint.offset);
-  }
-  const Clip clip = put_on(maker, still).clip;
+  const Clip clip = put_on(maker, rest_clip(canonical_skeleton())).clip;
   expect_maps(clip, expected_joints(maker, clip));
 }
 

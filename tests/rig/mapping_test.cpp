@@ -27,14 +27,17 @@ void expect_mapping(const std::vector<Line>& lines, const std::string& left,
   }
 }
 
-TEST(Mapping, our_own_skeleton_maps_to_itself) {
-  const Skeleton body = canonical_skeleton();
-  const HumanPositions rest = t_pose();
+// The body, whose joints are those of the canonical one, maps to itself.
+void expect_maps_to_itself(const Skeleton& body, const HumanPositions& pose) {
   const Result<Mapping> got =
-      map_humanoid(body, std::vector<JointPositions>{{rest.begin(), rest.end()}});
+      map_humanoid(body, std::vector<JointPositions>{{pose.begin(), pose.end()}});
   ASSERT_TRUE(got.ok()) << got.error().message;
   for (int j = 0; j < kHumanJoints; ++j) EXPECT_EQ(got->joint_of[j], j) << human_joint_name(j);
   EXPECT_TRUE(got->notes.empty());
+}
+
+TEST(Mapping, our_own_skeleton_maps_to_itself) {
+  expect_maps_to_itself(canonical_skeleton(), t_pose());
 }
 
 // As of a Rigify rig whose bones are left in a pose that leans, with one shoulder forward.
@@ -44,23 +47,7 @@ TEST(Mapping, a_head_without_its_name_is_found_in_a_pose_that_leans) {
   body.joints[index(head)].name = "spine.005";
   HumanPositions pose = t_pose();
   for (const HumanJoint joint : {neck, head}) pose[index(joint)].x += 0.03f;
-  const Result<Mapping> got =
-      map_humanoid(body, std::vector<JointPositions>{{pose.begin(), pose.end()}});
-  ASSERT_TRUE(got.ok()) << got.error().message;
-  for (int j = 0; j < kHumanJoints; ++j) EXPECT_EQ(got->joint_of[j], j) << human_joint_name(j);
-}
-
-// VRM's names with a group wherever a guess by place would take it.
-TEST(Mapping, a_standards_own_name_goes_before_a_guess_by_place) {
-  expect_mapping(tree(R"(
-hips, hips = > group 1, hips 0.99 > spine, spine = > group 2, spine 1.2 > chest, chest 0.8 =
-  > group 3, chest > neck, neck 0.9 = > group 4, neck > head, head =;
-group 3 > *Shoulder, leftShoulder 0.9 = > group 5*, leftShoulder > *UpperArm, leftUpperArm 0.9 =
-  > group 6*, leftUpperArm > *LowerArm, leftLowerArm 0.9 = > group 7*, leftLowerArm
-  > *Hand, leftHand =;
-group 1 > *UpperLeg, leftUpperLeg = > *LowerLeg, leftLowerLeg 0.9 = > group 8*, leftLowerLeg
-  > *Foot, leftFoot = > *Toes, leftToes =)"),
-                 "left", "right");
+  expect_maps_to_itself(body, pose);
 }
 
 // Unreal's names, with a group wherever a guess by place would take it, and other tools' names for
@@ -72,10 +59,6 @@ group 1 > clavicle_*, leftShoulder = > upperarm_*, leftUpperArm = > lowerarm_*, 
   > wrist_*, leftHand 0.9 > hand_*, leftHand = > thumb_01_*, leftHand 1.1;
 pelvis > thigh_*, leftUpperLeg = > calf_*, leftLowerLeg = > ankle_*, leftFoot 0.9
   > foot_*, leftFoot = > forefoot_*, leftToes 0.9 > ball_*, leftToes =)");
-
-TEST(Mapping, ends_of_limbs_and_numbered_pieces_obey_a_standards_own_name) {
-  expect_mapping(kUnrealGrouped, "l", "r");
-}
 
 TEST(Mapping, a_foot_below_an_ankle_without_toes_is_its_front) {
   std::vector<Line> lines = kUnrealGrouped;
@@ -136,7 +119,54 @@ m:*Hand > m:*HandIndex1, leftHand 1.2;
 m:Hips > m:*UpLeg, leftUpperLeg = > m:*Leg, leftLowerLeg = > m:*Foot, leftFoot =
   > m:*ToeBase, leftToes = > m:*Toe_End, leftToes 1.5)");
 
-TEST(Mapping, mixamo) { expect_mapping(kMixamo, "Left", "Right"); }
+TEST(Mapping, skeletons_map_as_a_person_would_map_them) {
+  const struct {
+    const char* what;
+    std::vector<Line> lines;
+    const char *left, *right;
+  } cases[] = {
+      {"Mixamo", kMixamo, "Left", "Right"},
+      {"ends of limbs and numbered pieces obey a standard's own name", kUnrealGrouped, "l", "r"},
+      // VRM's names with a group wherever a guess by place would take it.
+      {"a standard's own name goes before a guess", tree(R"(
+hips, hips = > group 1, hips 0.99 > spine, spine = > group 2, spine 1.2 > chest, chest 0.8 =
+  > group 3, chest > neck, neck 0.9 = > group 4, neck > head, head =;
+group 3 > *Shoulder, leftShoulder 0.9 = > group 5*, leftShoulder > *UpperArm, leftUpperArm 0.9 =
+  > group 6*, leftUpperArm > *LowerArm, leftLowerArm 0.9 = > group 7*, leftLowerArm
+  > *Hand, leftHand =;
+group 1 > *UpperLeg, leftUpperLeg = > *LowerLeg, leftLowerLeg 0.9 = > group 8*, leftLowerLeg
+  > *Foot, leftFoot = > *Toes, leftToes =)"),
+       "left", "right"},
+      {"CMU with joints of no length", tree(R"(
+Hips, hips = > *HipJoint, hips > *UpLeg, leftUpperLeg = > *Leg, leftLowerLeg = > *Foot, leftFoot =
+  > *ToeBase, leftToes =;
+Hips > LowerBack, hips > Spine, spine = > Spine1, chest = > Neck, chest > Neck1, neck =
+  > Head, head =;
+Spine1 > *Shoulder, leftShoulder 0 = > *Arm, leftUpperArm = > *ForeArm, leftLowerArm =
+  > *Hand, leftHand = > *FingerBase, leftHand > *HandIndex1, leftHand 1.3;
+*Hand > *Thumb, leftHand)"),
+       "Left", "Right"},
+      {"a body without clavicles, spine, neck or toes", tree(R"(
+Base, hips = > Body, chest = > Head, head =;
+Body > Arm1*, leftUpperArm = > Arm2*, leftLowerArm = > Wrist*, leftHand =;
+Base > Leg1*, leftUpperLeg = > Leg2*, leftLowerLeg = > Ankle*, leftFoot =)"),
+       "_l", "_r"},
+      {"numbers count the joints of an arm", tree(R"(
+Hips, hips = > Spine, spine = > Chest, chest = > Neck, neck = > Head, head =;
+Chest > Collar_*, leftShoulder = > Arm_*_1, leftUpperArm = > Arm_*_2, leftLowerArm =
+  > Hand_*, leftHand =;
+Hips > Leg_*_1, leftUpperLeg = > Leg_*_2, leftLowerLeg = > Foot_*, leftFoot = > Toe_*, leftToes =)"),
+       "L", "R"},
+      {"what carries the arms is no head whatever its name", tree(R"(
+Hips, hips = > Spine, spine = > Skull, chest = > Dome, head =;
+Skull > Arm1*, leftUpperArm = > Arm2*, leftLowerArm = > Wrist*, leftHand =;
+Hips > Leg1*, leftUpperLeg = > Leg2*, leftLowerLeg = > Ankle*, leftFoot =)"),
+       "_l", "_r"}};
+  for (const auto& [what, lines, left, right] : cases) {
+    SCOPED_TRACE(what);
+    expect_mapping(lines, left, right);
+  }
+}
 
 TEST(Mapping, case_does_not_matter) {
   std::vector<Line> lines = kMixamo;
@@ -157,48 +187,11 @@ TEST(Mapping, twist_joints_inside_the_limbs_are_passed_over) {
   expect_mapping(lines, "Left", "Right");
 }
 
-TEST(Mapping, cmu_with_joints_of_no_length) {
-  expect_mapping(tree(R"(
-Hips, hips = > *HipJoint, hips > *UpLeg, leftUpperLeg = > *Leg, leftLowerLeg = > *Foot, leftFoot =
-  > *ToeBase, leftToes =;
-Hips > LowerBack, hips > Spine, spine = > Spine1, chest = > Neck, chest > Neck1, neck =
-  > Head, head =;
-Spine1 > *Shoulder, leftShoulder 0 = > *Arm, leftUpperArm = > *ForeArm, leftLowerArm =
-  > *Hand, leftHand = > *FingerBase, leftHand > *HandIndex1, leftHand 1.3;
-*Hand > *Thumb, leftHand)"),
-                 "Left", "Right");
-}
-
-TEST(Mapping, a_body_without_clavicles_spine_neck_or_toes) {
-  expect_mapping(tree(R"(
-Base, hips = > Body, chest = > Head, head =;
-Body > Arm1*, leftUpperArm = > Arm2*, leftLowerArm = > Wrist*, leftHand =;
-Base > Leg1*, leftUpperLeg = > Leg2*, leftLowerLeg = > Ankle*, leftFoot =)"),
-                 "_l", "_r");
-}
-
-TEST(Mapping, numbers_may_count_the_joints_of_an_arm) {
-  expect_mapping(tree(R"(
-Hips, hips = > Spine, spine = > Chest, chest = > Neck, neck = > Head, head =;
-Chest > Collar_*, leftShoulder = > Arm_*_1, leftUpperArm = > Arm_*_2, leftLowerArm =
-  > Hand_*, leftHand =;
-Hips > Leg_*_1, leftUpperLeg = > Leg_*_2, leftLowerLeg = > Foot_*, leftFoot = > Toe_*, leftToes =)"),
-                 "L", "R");
-}
-
 TEST(Mapping, a_head_by_another_name_is_the_end_of_the_chain_above_the_chest) {
   std::vector<Line> lines = kMixamo;
   lines[5].name = "m:Kopf";
   lines[6] = {"m:Kopf_End", "m:Kopf", head, 3};
   expect_mapping(lines, "Left", "Right");
-}
-
-TEST(Mapping, what_carries_the_arms_is_no_head_whatever_its_name) {
-  expect_mapping(tree(R"(
-Hips, hips = > Spine, spine = > Skull, chest = > Dome, head =;
-Skull > Arm1*, leftUpperArm = > Arm2*, leftLowerArm = > Wrist*, leftHand =;
-Hips > Leg1*, leftUpperLeg = > Leg2*, leftLowerLeg = > Ankle*, leftFoot =)"),
-                 "_l", "_r");
 }
 
 TEST(Mapping, no_two_human_joints_share_a_joint) {

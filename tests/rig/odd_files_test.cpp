@@ -19,16 +19,10 @@ std::string joint_name_of(const Clip& clip, const Rig& rig, HumanJoint joint) {
   return found < 0 ? "" : clip.skeleton.joints[static_cast<size_t>(found)].name;
 }
 
-// The clip with a change of every limb and a step aside.
-Clip with_change(const Clip& clip, const Rig& rig) {
+// The clip as it is read and written with this change.
+Clip rewritten(const Clip& clip, const Rig& rig, const BodyChange& change) {
   PosedRig posed(rig);
   Clip out = clip;
-  BodyChange change;
-  for (int j = 0; j < kHumanJoints; ++j) {
-    change.rotations[j] = axis_angle(normalized(Vec3{1, 0.2f * j, 0.5f}), 0.05f * (j % 7));
-  }
-  change.turn = 0.3f;
-  change.translation = {0.2f, -0.05f, 0.1f};
   for (int f = 0; f < clip.frames; ++f) {
     BodyPose body;
     posed.read(clip.pose(f), body);
@@ -36,16 +30,16 @@ Clip with_change(const Clip& clip, const Rig& rig) {
   }
   return out;
 }
-
-Clip without_change(const Clip& clip, const Rig& rig) {
-  PosedRig posed(rig);
-  Clip out = clip;
-  for (int f = 0; f < clip.frames; ++f) {
-    BodyPose body;
-    posed.read(clip.pose(f), body);
-    posed.write(clip.pose(f), body, {}, out.pose(f));
+Clip without_change(const Clip& clip, const Rig& rig) { return rewritten(clip, rig, {}); }
+// With a change of every limb and a step aside.
+Clip with_change(const Clip& clip, const Rig& rig) {
+  BodyChange change;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    change.rotations[j] = axis_angle(normalized(Vec3{1, 0.2f * j, 0.5f}), 0.05f * (j % 7));
   }
-  return out;
+  change.turn = 0.3f;
+  change.translation = {0.2f, -0.05f, 0.1f};
+  return rewritten(clip, rig, change);
 }
 
 TEST(OddRig, what_goes_with_the_body_follows_every_change) {

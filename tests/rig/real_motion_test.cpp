@@ -46,6 +46,16 @@ std::optional<Loaded> load(const fs::path& path) {
   return Loaded{*std::move(file), *std::move(rig)};
 }
 
+// Calls visit(path, loaded) for every file of all sets that can be loaded.
+template <class Visit>
+void for_each_file(const Visit& visit) {
+  for (const char* folder : {"bandai-1", "xia", "formats"}) {
+    for (const fs::path& path : motion_files(folder)) {
+      if (auto loaded = load(path)) visit(path, *loaded);
+    }
+  }
+}
+
 // The joints' names in order, '-' for a missing one.
 std::string names(const Rig& rig) {
   std::string out;
@@ -137,25 +147,18 @@ bool same_address(const Clip& clip, int a, int b) {
 
 TEST(RealMotion, every_file_maps_the_same_when_its_joints_have_no_names) {
   size_t seen = 0;
-  for (const char* folder : {"bandai-1", "xia", "formats"}) {
-    for (const fs::path& path : motion_files(folder)) {
-      const auto loaded = load(path);
-      if (!loaded) continue;
-      const Clip& clip = loaded->file->clip();
-      const Anonymous nameless = anonymous(clip, static_cast<unsigned>(++seen));
-      const auto rig = Rig::create(nameless.clip);
-      EXPECT_TRUE(rig.ok()) << path << ": " << rig.error().message;
-      for (int j = 0; rig && j < kHumanJoints; ++j) {
-        const int got = rig->joints()[j] < 0 ? -1 : nameless.order[rig->joints()[j]];
-        const int want = loaded->rig.joints()[j];
-        const auto name = [&](int joint) {
-          return joint < 0 ? std::string("-") : clip.skeleton.joints[joint].name;
-        };
-        EXPECT_TRUE(same_address(clip, want, got))
-            << path << " " << human_joint_name(j) << ": " << name(want) << " but " << name(got);
-      }
+  for_each_file([&](const fs::path& path, const Loaded& loaded) {
+    const Clip& clip = loaded.file->clip();
+    const Anonymous nameless = anonymous(clip, static_cast<unsigned>(++seen));
+    const auto rig = Rig::create(nameless.clip);
+    EXPECT_TRUE(rig.ok()) << path << ": " << rig.error().message;
+    for (int j = 0; rig && j < kHumanJoints; ++j) {
+      const int got = rig->joints()[j] < 0 ? -1 : nameless.order[rig->joints()[j]];
+      const int want = loaded.rig.joints()[j];
+      EXPECT_TRUE(same_address(clip, want, got))
+          << path << " " << human_joint_name(j) << ": " << want << " but " << got;
     }
-  }
+  });
   if (seen == 0) GTEST_SKIP() << "PANACHE_DATA names no folder with real motion.";
 }
 
@@ -163,27 +166,23 @@ TEST(RealMotion, every_frame_of_every_file_survives_reading_and_writing) {
   long frames = 0;
   Deviation worst;
   std::mt19937 random(1);
-  for (const char* folder : {"bandai-1", "xia", "formats"}) {
-    for (const fs::path& path : motion_files(folder)) {
-      auto loaded = load(path);
-      if (!loaded) continue;
-      const Clip& clip = loaded->file->clip();
-      PosedRig rig(loaded->rig);
-      PoseBuffer out(clip.joints());
-      for (int f = 0; f < clip.frames; ++f, ++frames) {
-        ASSERT_TRUE(unchanged(rig, clip.pose(f), out.pose())) << path << " frame " << f;
-        if (f % 10) continue;
-        BodyPose body;
-        rig.read(clip.pose(f), body);
-        expect_canonical(body);
-        const BodyChange change = random_change(random);
-        const Deviation off = deviation(rig, clip, clip.pose(f), change, out.pose());
-        worst.limb_deg = std::max(worst.limb_deg, off.limb_deg);
-        worst.rotation_deg = std::max(worst.rotation_deg, off.rotation_deg);
-        worst.mid_hip = std::max(worst.mid_hip, off.mid_hip);
-      }
+  for_each_file([&](const fs::path& path, const Loaded& loaded) {
+    const Clip& clip = loaded.file->clip();
+    PosedRig rig(loaded.rig);
+    PoseBuffer out(clip.joints());
+    for (int f = 0; f < clip.frames; ++f, ++frames) {
+      ASSERT_TRUE(unchanged(rig, clip.pose(f), out.pose())) << path << " frame " << f;
+      if (f % 10) continue;
+      BodyPose body;
+      rig.read(clip.pose(f), body);
+      expect_canonical(body);
+      const BodyChange change = random_change(random);
+      const Deviation off = deviation(rig, clip, clip.pose(f), change, out.pose());
+      worst.limb_deg = std::max(worst.limb_deg, off.limb_deg);
+      worst.rotation_deg = std::max(worst.rotation_deg, off.rotation_deg);
+      worst.mid_hip = std::max(worst.mid_hip, off.mid_hip);
     }
-  }
+  });
   if (frames == 0) GTEST_SKIP() << "PANACHE_DATA names no folder with real motion.";
   std::printf("%ld frames; largest deviations: limbs %.1e deg, rotations %.1e deg, hips %.1e m\n",
               frames, worst.limb_deg, worst.rotation_deg, worst.mid_hip);

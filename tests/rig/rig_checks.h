@@ -12,6 +12,19 @@
 
 namespace panache::test {
 
+// The clip's rig, which has to be recognised.
+inline Rig rig_of(const Clip& clip) {
+  Result<Rig> rig = Rig::create(clip);
+  if (!rig) ADD_FAILURE() << rig.error().message;
+  return *std::move(rig);
+}
+
+// Why the clip has no rig; "" if it has one.
+inline std::string rejection_of(const Clip& clip, const RigOptions& options = {}) {
+  const Result<Rig> rig = Rig::create(clip, options);
+  return rig ? "" : rig.error().message;
+}
+
 // Room for one pose.
 struct PoseBuffer {
   explicit PoseBuffer(size_t joints) : rotations(joints), translations(joints) {}
