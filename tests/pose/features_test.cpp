@@ -10,20 +10,12 @@
 #include "base/random.h"
 #include "pose/features.h"
 #include "pose/style_delta.h"
-#include "rig/canonical_body.h"
+#include "rig/made_up.h"
 
 namespace panache {
 namespace {
 
-HumanPositions t_pose() {
-  HumanPositions body;
-  const Skeleton skeleton = canonical_skeleton();
-  for (int j = 0; j < kHumanJoints; ++j) {
-    body[j] = skeleton.joints[j].offset;
-    if (kHumanParent[j] >= 0) body[j] += body[kHumanParent[j]];
-  }
-  return body;
-}
+using test::t_pose;
 
 TEST(Features, the_body_frame_undoes_place_and_heading) {
   const HumanPositions body = t_pose();

@@ -24,14 +24,18 @@ Vec3 reached(const TwoBoneTurn& turn, Vec3 hip, Vec3 knee, Vec3 ankle) {
   return hip + rotate(turn.upper, knee - hip) + rotate(turn.lower, ankle - knee);
 }
 
+// Of the leg, with its knee ahead.
+TwoBoneTurn turn_to(Vec3 target) {
+  return two_bone_ik(kHip, kKnee, kAnkle, target, bend_of(kHip, kKnee, kAnkle, {0, 0, 1}));
+}
+
 TEST(TwoBoneIk, a_target_in_reach_is_met_and_the_knee_keeps_its_side) {
   Random random(7);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 target = kAnkle + Vec3{0.2f * random.normal(), 0.05f + 0.1f * random.uniform(),
                                       0.2f * random.normal()};
     if (length(target - kHip) > 0.8f) continue;
-    const TwoBoneTurn turn =
-        two_bone_ik(kHip, kKnee, kAnkle, target, bend_of(kHip, kKnee, kAnkle, {0, 0, 1}));
+    const TwoBoneTurn turn = turn_to(target);
     EXPECT_LT(length(reached(turn, kHip, kKnee, kAnkle) - target), 1e-4f);
     const Vec3 knee = kHip + rotate(turn.upper, kKnee - kHip);
     EXPECT_GT(knee.z, (kHip.z + target.z) / 2 - 0.02f) << "the knee bends backwards";
@@ -39,16 +43,14 @@ TEST(TwoBoneIk, a_target_in_reach_is_met_and_the_knee_keeps_its_side) {
 }
 
 TEST(TwoBoneIk, a_target_at_the_end_itself_turns_nothing) {
-  const TwoBoneTurn turn =
-      two_bone_ik(kHip, kKnee, kAnkle, kAnkle, bend_of(kHip, kKnee, kAnkle, {0, 0, 1}));
+  const TwoBoneTurn turn = turn_to(kAnkle);
   EXPECT_LT(length(turn.upper.xyz()), 1e-3f);
   EXPECT_LT(length(turn.lower.xyz()), 1e-3f);
 }
 
 TEST(TwoBoneIk, a_target_out_of_reach_is_approached_and_stays_finite) {
   for (const Vec3 target : {Vec3{0, -5, 0}, Vec3{9, 0, 9}, kHip, Vec3{1e20f, 0, 0}}) {
-    const TwoBoneTurn turn =
-        two_bone_ik(kHip, kKnee, kAnkle, target, bend_of(kHip, kKnee, kAnkle, {0, 0, 1}));
+    const TwoBoneTurn turn = turn_to(target);
     EXPECT_TRUE(is_finite(turn.upper) && is_finite(turn.lower));
     const float reach = length(reached(turn, kHip, kKnee, kAnkle) - kHip);
     EXPECT_LE(reach, 0.83f);
@@ -344,18 +346,14 @@ TEST(FootLock, a_toe_below_the_floor_is_drawn_up_planted_or_not) {
 TEST(FootLock, a_straight_leg_does_not_let_its_knee_fly) {
   // The target comes nearer to the hip by 1 mm at a time; the leg begins straight.
   const auto bend = [](float nearer) {
-    const HumanPositions joints = [] {
-      HumanPositions standing{};
-      standing[index(HumanJoint::left_upper_leg)] = {0.1f, 0, 0};
-      standing[index(HumanJoint::left_lower_leg)] = {0.1f, -0.4f, 0.001f};
-      standing[index(HumanJoint::left_foot)] = {0.1f, -0.8f, 0};
-      standing[index(HumanJoint::left_toes)] = {0.1f, -0.85f, 0.1f};
-      standing[index(HumanJoint::right_upper_leg)] = {-0.1f, 0, 0};
-      standing[index(HumanJoint::right_lower_leg)] = {-0.1f, -0.4f, 0.001f};
-      standing[index(HumanJoint::right_foot)] = {-0.1f, -0.8f, 0};
-      standing[index(HumanJoint::right_toes)] = {-0.1f, -0.85f, 0.1f};
-      return standing;
-    }();
+    HumanPositions joints{};
+    for (const int side : {0, 1}) {
+      const float x = side == 0 ? 0.1f : -0.1f;
+      joints[index(kUpperLegs[side])] = {x, 0, 0};
+      joints[index(kLowerLegs[side])] = {x, -0.4f, 0.001f};
+      joints[index(kAnkles[side])] = {x, -0.8f, 0};
+      joints[index(kToes[side])] = {x, -0.85f, 0.1f};
+    }
     BodyPose body;
     body.joints = joints;
     for (Vec3& joint : body.joints) joint.y += 0.85f - nearer;  // So deep are the toes.

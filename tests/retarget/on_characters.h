@@ -26,8 +26,7 @@ inline Clip neutral_walk(double seconds = 4) {
 // A maker's rig at rest.
 inline Clip character_of(const Maker& maker, float turn = 0, double units = 0,
                          std::optional<bool> z_up = {}) {
-  Clip one{canonical_skeleton(), 1.0 / 30, 1, std::vector<Quat>(kHumanJoints), {}};
-  for (const Joint& joint : one.skeleton.joints) one.translations.push_back(joint.offset);
+  const Clip one = rest_clip(canonical_skeleton());
   return rest_clip(put_on(maker, one, turn, units, z_up).clip.skeleton);
 }
 

@@ -131,17 +131,23 @@ TEST(Retarget, units_axes_and_heading_of_the_character_make_no_difference) {
   }
 }
 
+// Twenty frames of the canonical body in T-pose.
+Clip still() {
+  const Clip rest = rest_clip(canonical_skeleton());
+  Clip out = rest;
+  while (out.frames < 20) out.append(rest.pose(0));
+  out.frame_time = 1.0 / 30;
+  return out;
+}
+
 // On one leg, the other thigh raised and the knee bent.
 Clip stork(bool on_left) {
-  Clip out{canonical_skeleton(), 1.0 / 30, 20, {}, {}};
+  Clip out = still();
   for (int f = 0; f < out.frames; ++f) {
-    for (int j = 0; j < kHumanJoints; ++j) {
-      Quat q;
-      if (j == index(on_left ? right_upper_leg : left_upper_leg)) q = axis_angle({1, 0, 0}, -1.2f);
-      if (j == index(on_left ? right_lower_leg : left_lower_leg)) q = axis_angle({1, 0, 0}, 1.4f);
-      out.rotations.push_back(q);
-      out.translations.push_back(out.skeleton.joints[j].offset);
-    }
+    const Pose pose = out.pose(f);
+    pose.rotations[index(on_left ? right_upper_leg : left_upper_leg)] =
+        axis_angle({1, 0, 0}, -1.2f);
+    pose.rotations[index(on_left ? right_lower_leg : left_lower_leg)] = axis_angle({1, 0, 0}, 1.4f);
   }
   return out;
 }
@@ -187,17 +193,12 @@ TEST(Retarget, legs_that_rest_astride_walk_side_by_side) {
 
 // Arms stretched ahead, wrists together.
 Clip clap() {
-  Clip out{canonical_skeleton(), 1.0 / 30, 20, {}, {}};
+  Clip out = still();
   for (int f = 0; f < out.frames; ++f) {
-    for (int j = 0; j < kHumanJoints; ++j) {
-      // In T-pose shoulders are 17 cm from the middle and arms some 50 cm long.
-      const float in = 1.5708f + 0.33f * static_cast<float>(f) / 19;
-      Quat q;
-      if (j == index(left_upper_arm)) q = rotation_y(-in);
-      if (j == index(right_upper_arm)) q = rotation_y(in);
-      out.rotations.push_back(q);
-      out.translations.push_back(out.skeleton.joints[j].offset);
-    }
+    // In T-pose shoulders are 17 cm from the middle and arms some 50 cm long.
+    const float in = 1.5708f + 0.33f * static_cast<float>(f) / 19;
+    out.pose(f).rotations[index(left_upper_arm)] = rotation_y(-in);
+    out.pose(f).rotations[index(right_upper_arm)] = rotation_y(in);
   }
   return out;
 }
