@@ -144,25 +144,23 @@ TEST(Quantize, three_trunks_of_it_give_several_rows_the_bits_that_each_gives_alo
   }
 }
 
-TEST(Quantize, a_layer_without_its_int8_scale_is_rejected) {
-  TensorFile int8 = quantize(small_file());
-  int8.tensors.erase("pose.1.scale");
-  EXPECT_EQ(failure(int8), "model.safetensors: tensor 'pose.1.scale' is missing");
-  int8 = quantize(small_file());
-  int8.tensors["pose.1.scale"].shape = {4, 5};
-  EXPECT_EQ(failure(int8),
+TEST(Quantize, a_layer_without_its_int8_scale_or_with_other_bytes_is_rejected) {
+  const auto message = [](auto&& change) {
+    TensorFile int8 = quantize(small_file());
+    change(int8.tensors);
+    return failure(int8);
+  };
+  EXPECT_EQ(message([](auto& of) { of.erase("pose.1.scale"); }),
+            "model.safetensors: tensor 'pose.1.scale' is missing");
+  EXPECT_EQ(message([](auto& of) {
+              of["pose.1.scale"].shape = {4, 5};
+            }),
             "model.safetensors: tensor 'pose.1.scale' has shape [4, 5]; expected [20]");
-  int8 = quantize(small_file());
-  int8.tensors["pose.1.scale"].values[3] = INFINITY;
-  EXPECT_EQ(failure(int8),
+  EXPECT_EQ(message([](auto& of) { of["pose.1.scale"].values[3] = INFINITY; }),
             "model.safetensors: tensor 'pose.1.scale' holds a number that is not finite (number "
             "3)");
-}
-
-TEST(Quantize, a_byte_that_could_make_a_sum_overflow_is_rejected) {
-  TensorFile int8 = quantize(small_file());
-  int8.tensors["pose.1.weight"].values[6] = -128;
-  EXPECT_EQ(failure(int8),
+  // A sum of such could overflow.
+  EXPECT_EQ(message([](auto& of) { of["pose.1.weight"].values[6] = -128; }),
             "model.safetensors: tensor 'pose.1.weight' holds a -128 (number 6); expected bytes "
             "from -127 to 127");
 }

@@ -54,7 +54,7 @@ class Draw {
 };
 
 void check_dense(Draw& draw) {
-  const size_t rows = draw.whole(1, 2 * kRowsAtOnce + 1), inputs = draw.size(300);
+  const size_t rows = draw.whole(0, 2 * kRowsAtOnce + 1), inputs = draw.size(300);
   const size_t outputs = draw.size(300), x_stride = inputs + draw.whole(0, 3);
   const size_t y_stride = outputs + draw.whole(0, 3);
   SCOPED_TRACE(std::to_string(rows) + " rows of " + std::to_string(inputs) + " inputs, " +
@@ -76,7 +76,7 @@ void check_dense(Draw& draw) {
 }
 
 void check_dense_int8(Draw& draw) {
-  const size_t rows = draw.whole(1, 2 * kRowsAtOnce + 1);
+  const size_t rows = draw.whole(0, 2 * kRowsAtOnce + 1);
   const size_t inputs = draw.size(draw.whole(0, 9) ? 300 : kMaxInt8Inputs);
   const size_t outputs = kPadding * draw.size(12);
   const size_t x_stride = inputs + draw.whole(0, 3), y_stride = outputs + draw.whole(0, 3);
