@@ -16,11 +16,7 @@ using test::allocations_left;
 bool check_harmless(const std::string& text) {
   auto file = parse_bvh(text, "walk.bvh");
   if (!file) {
-    const std::string& message = file.error().message;
-    EXPECT_EQ(message.substr(0, 9), "walk.bvh:");
-    EXPECT_NE(message.find(": expected "), std::string::npos) << message;
-    EXPECT_NE(message.find(", found "), std::string::npos) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    expect_whole_message(file.error(), "walk.bvh:");
     return false;
   }
   const Clip& clip = (*file)->clip();
@@ -46,19 +42,14 @@ TEST(BvhSafety, every_truncation_is_harmless) {
 }
 
 TEST(BvhSafety, every_changed_byte_is_harmless) {
-  constexpr unsigned char kValues[] = {0,   ' ', '\n', '\r', '0', '9',  '-',
-                                       '.', 'e', '{',  '}',  'X', 0x7f, 0xff};
   int accepted = 0, rejected = 0;
   for (const char* fixture : kBvhFixtures) {
     const std::string text = read_fixture(fixture);
     for (size_t i = 0; i < text.size(); ++i) {
-      std::string spoilt = text;
-      for (const unsigned char value : kValues) {
-        spoilt[i] = static_cast<char>(value);
-        ++(check_harmless(spoilt) ? accepted : rejected);
+      for (const int value : std::initializer_list<int>{-1, 0, ' ', '\n', '\r', '0', '9', '-', '.',
+                                                        'e', '{', '}', 'X', 0x7f, 0xff}) {
+        ++(check_harmless(with_byte(text, i, value)) ? accepted : rejected);
       }
-      spoilt[i] = static_cast<char>(text[i] ^ 1);
-      ++(check_harmless(spoilt) ? accepted : rejected);
     }
   }
   // Both ways were taken, or this test says nothing.

@@ -87,63 +87,48 @@ TEST(FbxSafety, a_flipped_bit_anywhere_is_harmless) {
   }
 }
 
-TEST(FbxSafety, what_is_no_fbx_is_told_so) {
-  EXPECT_EQ(rejection(""), "in.fbx: does not begin as FBX files do; is it damaged?");
-  EXPECT_EQ(rejection("HIERARCHY\nROOT"), "in.fbx: does not begin as FBX files do; is it damaged?");
-  EXPECT_NE(rejection("; FBX 5.0 project file\nFBXHeaderExtension: {\nFBXVersion: 5000\n}\n")
-                .find("expected FBX 6 or 7, found version 5000; Autodesk's FBX Converter"),
-            std::string::npos);
-  EXPECT_EQ(rejection("; FBX 7.4.0 project file\n"),
-            "in.fbx: expected joints (models of FBX), found none");
+// The text with `to` instead of the first `from`.
+std::string spoilt(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
 }
 
-// Written with its first lines changed, such a file would not begin as FBX files do.
-TEST(FbxSafety, a_byte_of_0_anywhere_in_a_text_is_told_so) {
-  std::string text = test::format_fbx(test::walking_clip(30));
-  ASSERT_GT(text.size(), 5000u);
-  text.insert(text.rfind("\n\t") + 2, 1, '\0');
-  EXPECT_NE(rejection(text).find("expected text, found a byte of 0; is the file damaged?"),
-            std::string::npos)
-      << rejection(text);
-}
-
-TEST(FbxSafety, models_below_themselves_are_told_so) {
-  std::string text = test::make_fbx_scene({{"a", -1, {}}, {"b", 0, {}}}, {});
-  const std::string root = "\"OO\",2000,0";
-  text.replace(text.find(root), root.size(), "\"OO\",2000,2001");
-  EXPECT_EQ(rejection(text),
-            "in.fbx: expected models that hang on the scene, found 2 that hang on each other in a "
-            "circle");
-}
-
-TEST(FbxSafety, packed_arrays_of_false_size_are_told_so) {
-  const std::string good =
-      test::to_binary_fbx7(test::format_fbx(test::walking_clip(3)), 7400, true);
-  const std::string head = std::string("KeyTime") + "l";
-  const size_t at = good.find(head) + head.size();
-  for (const char* count : {"\xff\xff\xff\xff", "\x04\x00\x00\x00", "\x00\x00\x00\x01"}) {
-    std::string bad = good;
-    bad.replace(at, 4, std::string(count, 4));
-    EXPECT_NE(rejection(bad).find("expected whole numbers as the times of keys"), std::string::npos)
-        << rejection(bad);
+TEST(FbxSafety, what_is_wrong_is_told_so) {
+  const std::string two = test::make_fbx_scene({{"a", -1, {}}, {"b", 0, {}}}, {});
+  const std::string walk = test::format_fbx(test::walking_clip(3));
+  const std::string packed = test::to_binary_fbx7(walk, 7400, true);
+  const size_t count_at = packed.find("KeyTimel") + 8;
+  const auto with_count = [&](const char* count) {
+    return std::string(packed).replace(count_at, 4, std::string(count, 4));
+  };
+  // Written with its first lines changed, such a file would not begin as FBX files do.
+  std::string zero = test::format_fbx(test::walking_clip(30));
+  ASSERT_GT(zero.size(), 5000u);
+  zero.insert(zero.rfind("\n\t") + 2, 1, '\0');
+  const std::string none = "in.fbx: does not begin as FBX files do; is it damaged?";
+  const std::string times = "expected whole numbers as the times of keys";
+  const std::pair<std::string, std::string> cases[] = {
+      {"", none},
+      {"HIERARCHY\nROOT", none},
+      {"; FBX 5.0 project file\nFBXHeaderExtension: {\nFBXVersion: 5000\n}\n",
+       "expected FBX 6 or 7, found version 5000; Autodesk's FBX Converter"},
+      {"; FBX 7.4.0 project file\n", "in.fbx: expected joints (models of FBX), found none"},
+      {zero, "expected text, found a byte of 0; is the file damaged?"},
+      {spoilt(two, "\"OO\",2000,0", "\"OO\",2000,2001"),
+       "in.fbx: expected models that hang on the scene, found 2 that hang on each other in a "
+       "circle"},
+      {with_count("\xff\xff\xff\xff"), times},
+      {with_count("\x04\x00\x00\x00"), times},
+      {with_count("\x00\x00\x00\x01"), times},
+      {test::make_fbx_scene(
+           {{"a", -1, {{"Lcl Scaling", {1, 0, 1}}}}, {"b", 0, {{"Lcl Translation", {1, 1, 1}}}}},
+           {}),
+       "expected a scale that leaves each of its axes some length"},
+      {spoilt(walk, "KeyValueFloat: *3 {\n\t\t\ta: ", "KeyValueFloat: *3 {\n\t\t\ta: 1,"),
+       "expected a curve with as many values as times"}};
+  for (const auto& [bytes, message] : cases) {
+    EXPECT_NE(rejection(bytes).find(message), std::string::npos)
+        << rejection(bytes) << "\ninstead of: " << message;
   }
-}
-
-TEST(FbxSafety, a_flat_joint_above_others_is_told_so) {
-  const std::string text = test::make_fbx_scene(
-      {{"a", -1, {{"Lcl Scaling", {1, 0, 1}}}}, {"b", 0, {{"Lcl Translation", {1, 1, 1}}}}}, {});
-  EXPECT_NE(rejection(text).find("expected a scale that leaves each of its axes some length"),
-            std::string::npos)
-      << rejection(text);
-}
-
-TEST(FbxSafety, curves_without_as_many_values_as_times_are_told_so) {
-  std::string text = test::format_fbx(test::walking_clip(3));
-  const size_t at = text.find("KeyValueFloat: *3 {\n\t\t\ta: ") + 26;
-  text.insert(at, "1,");
-  EXPECT_NE(rejection(text).find("expected a curve with as many values as times"),
-            std::string::npos)
-      << rejection(text);
 }
 
 }  // namespace

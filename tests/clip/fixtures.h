@@ -67,6 +67,19 @@ double angle_between(BasicQuat<T> a, BasicQuat<T> b) {
       length(log_rotation(conjugate(a.template as<double>()) * b.template as<double>())));
 }
 
+// Messages are one line: where, what was expected, and what was found.
+inline void expect_whole_message(const Error& error, const std::string& where) {
+  EXPECT_TRUE(error.message.starts_with(where)) << error.message;
+  EXPECT_NE(error.message.find("expected "), std::string::npos) << error.message;
+  EXPECT_EQ(error.message.find('\n'), std::string::npos) << error.message;
+}
+
+// The text with one byte changed: to `value`, or by its last bit where that is negative.
+inline std::string with_byte(std::string text, size_t at, int value) {
+  text[at] = static_cast<char>(value < 0 ? text[at] ^ 1 : value);
+  return text;
+}
+
 // Why `clip` breaks a promise that every clip keeps; empty where it keeps all.
 inline std::string broken_promise(const Clip& clip) {
   if (clip.skeleton.joints.empty()) return "no joints";
@@ -86,13 +99,8 @@ inline std::string broken_promise(const Clip& clip) {
   for (size_t i = 0; i < poses; ++i) {
     if (!is_finite(clip.translations[i])) return "translation not finite";
     // A float quaternion made from an exact one is unit to a few times 2^-24.
-    if (!(std::abs(length(clip.rotations[i].xyz().as<double>()) *
-                       length(clip.rotations[i].xyz().as<double>()) +
-                   static_cast<double>(clip.rotations[i].w) *
-                       static_cast<double>(clip.rotations[i].w) -
-                   1) < 1e-6)) {
-      return "rotation not unit";
-    }
+    const Quatd q = clip.rotations[i].as<double>();
+    if (!(std::abs(dot(q, q) - 1) < 1e-6)) return "rotation not unit";
   }
   return "";
 }

@@ -61,6 +61,14 @@ inline std::string edited(const MotionFile& file, const Clip& changed, EditMode 
   return edited(file, changed, same_frames(changed.frames), mode, clip);
 }
 
+// Adds a channel of the first sampler that only the owner of an extension understands.
+inline void add_extension_channel(test::GltfParts& parts) {
+  const test::Json pointer = {{"pointer", "/materials/0/alpha"}};
+  parts.json["animations"][0]["channels"].push_back(
+      {{"sampler", 0},
+       {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", pointer}}}}}});
+}
+
 // Turns a joint in all frames by `angle` about its own z axis.
 inline void turn(Clip& clip, size_t joint, float angle) {
   for (int f = 0; f < clip.frames; ++f) {

@@ -12,20 +12,28 @@ using test::Json;
 using test::key_times;
 using test::small_gltf;
 
-// The small file with other keys for the turns of the hips.
-GltfParts with_turns(const std::vector<float>& times, const std::vector<float>& turns,
-                     const char* interpolation) {
+// The small file with this channel of the hips alone.
+GltfParts with_channel(const char* path, const std::vector<float>& times,
+                       const std::vector<float>& values, const char* interpolation) {
   GltfParts parts = small_gltf();
   parts.json["animations"][0].erase("channels");
   parts.json["animations"][0].erase("samplers");
   const size_t input = parts.add_bounded(times, "SCALAR", 1);
-  parts.add_channel(0, 1, "rotation", interpolation, input, parts.add(turns, "VEC4", 4));
+  const size_t numbers = path == std::string("rotation") ? 4 : 3;
+  parts.add_channel(0, 1, path, interpolation, input,
+                    parts.add(values, numbers == 4 ? "VEC4" : "VEC3", numbers));
   return parts;
 }
+GltfParts with_turns(const std::vector<float>& times, const std::vector<Quat>& turns,
+                     const char* interpolation) {
+  std::vector<float> values;
+  for (const Quat q : turns) test::append(values, q);
+  return with_channel("rotation", times, values, interpolation);
+}
 GltfParts with_times(const std::vector<float>& times) {
-  std::vector<float> turns;
+  std::vector<Quat> turns;
   for (size_t i = 0; i < times.size(); ++i) {
-    test::append(turns, axis_angle(Vec3{1, 0, 0}, 0.1f * static_cast<float>(i)));
+    turns.push_back(axis_angle(Vec3{1, 0, 0}, 0.1f * static_cast<float>(i)));
   }
   return with_turns(times, turns, "LINEAR");
 }
@@ -86,9 +94,7 @@ TEST(GltfRead, data_in_files_beside_the_file_is_found) {
 
 TEST(GltfRead, step_keys_hold_and_linear_keys_turn_at_constant_speed) {
   // Keys at 0 and 1 s give frames at 24 a second in between.
-  std::vector<float> turns;
-  test::append(turns, about_x(0));
-  test::append(turns, about_x(2));
+  const std::vector<Quat> turns = {about_x(0), about_x(2)};
   const Clip step = must_read(with_turns({0, 1}, turns, "STEP"))->clip();
   ASSERT_EQ(step.frames, 25);
   EXPECT_EQ(step.pose(23).rotations[1], about_x(0));
@@ -102,27 +108,20 @@ TEST(GltfRead, step_keys_hold_and_linear_keys_turn_at_constant_speed) {
 }
 
 TEST(GltfRead, linear_keys_on_either_side_of_the_sphere_go_the_shorter_way) {
-  std::vector<float> turns;
-  test::append(turns, about_x(0.2));
   const Quat q = about_x(0.6);
-  test::append(turns, Quat{-q.x, -q.y, -q.z, -q.w});
+  const std::vector<Quat> turns = {about_x(0.2), {-q.x, -q.y, -q.z, -q.w}};
   const Clip clip = must_read(with_turns({0, 1}, turns, "LINEAR"))->clip();
   EXPECT_LT(angle_between(clip.pose(12).rotations[1], about_x(0.4)), 4 * 0x1p-24);
 }
 
 TEST(GltfRead, cubic_keys_follow_their_tangents) {
-  GltfParts parts = small_gltf();
-  parts.json["animations"][0].erase("channels");
-  parts.json["animations"][0].erase("samplers");
   // x(t) = t^3 - 2 t^2 + 3 t + 1 over 2 seconds, which a Hermite spline holds exactly.
   const auto x = [](double t) { return t * t * t - 2 * t * t + 3 * t + 1; };
   const auto slope = [](double t) { return static_cast<float>(3 * t * t - 4 * t + 3); };
   const std::vector<float> values = {
       9,        9, 9, static_cast<float>(x(0)), 0, 0, slope(0), 0, 0,
       slope(2), 0, 0, static_cast<float>(x(2)), 0, 0, 9,        9, 9};
-  parts.add_channel(0, 1, "translation", "CUBICSPLINE", parts.add_bounded({0, 2}, "SCALAR", 1),
-                    parts.add(values, "VEC3", 3));
-  const Clip clip = must_read(parts)->clip();
+  const Clip clip = must_read(with_channel("translation", {0, 2}, values, "CUBICSPLINE"))->clip();
   ASSERT_EQ(clip.frames, 49);
   for (int f = 0; f < clip.frames; ++f) {
     const Vec3 position = clip.pose(f).translations[1];
@@ -133,41 +132,31 @@ TEST(GltfRead, cubic_keys_follow_their_tangents) {
 }
 
 TEST(GltfRead, whole_numbers_stand_for_fractions) {
-  GltfParts parts = small_gltf();
-  const std::vector<int16_t> turns = {0, 0,      0, 32767, 32767, 0, 0, 0,
-                                      0, -32768, 0, 0,     0,     0, 0, -32767};
-  const size_t packed = parts.add(turns, "VEC4", 4);
-  parts.json["accessors"][packed]["normalized"] = true;
-  parts.json["animations"][0]["samplers"][0]["output"] = packed;
-  const Clip clip = must_read(parts)->clip();
-  EXPECT_EQ(clip.pose(0).rotations[1], Quat{});
-  EXPECT_EQ(clip.pose(1).rotations[1], (Quat{1, 0, 0, 0}));
-  EXPECT_EQ(clip.pose(2).rotations[1], (Quat{0, -1, 0, 0}));
-  EXPECT_EQ(clip.pose(3).rotations[1], (Quat{0, 0, 0, -1}));
-}
-
-TEST(GltfRead, bytes_stand_for_fractions_too) {
-  GltfParts parts = small_gltf();
-  const std::vector<uint8_t> turns = {0, 0, 0, 127, 127, 0, 0, 0, 0, 128, 0, 0, 0, 0, 0, 129};
-  const size_t packed = parts.add(turns, "VEC4", 4);
-  Json& accessor = parts.json["accessors"][packed];
-  accessor["normalized"] = true;
-  accessor["componentType"] = 5120;  // Signed: 128 is -128, 129 is -127.
-  parts.json["animations"][0]["samplers"][0]["output"] = packed;
-  Clip clip = must_read(parts)->clip();
-  EXPECT_EQ(clip.pose(0).rotations[1], Quat{});
-  EXPECT_EQ(clip.pose(1).rotations[1], (Quat{1, 0, 0, 0}));
-  EXPECT_EQ(clip.pose(2).rotations[1], (Quat{0, -1, 0, 0}));
-  EXPECT_EQ(clip.pose(3).rotations[1], (Quat{0, 0, 0, -1}));
-  const size_t without_sign = parts.add(
-      std::vector<uint8_t>{0, 0, 0, 255, 255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0}, "VEC4", 4);
-  parts.json["accessors"][without_sign]["normalized"] = true;
-  parts.json["animations"][0]["samplers"][0]["output"] = without_sign;
-  clip = must_read(parts)->clip();
-  EXPECT_EQ(clip.pose(0).rotations[1], Quat{});
-  EXPECT_EQ(clip.pose(1).rotations[1], (Quat{1, 0, 0, 0}));
-  EXPECT_EQ(clip.pose(2).rotations[1], (Quat{0, 1, 0, 0}));
-  EXPECT_EQ(clip.pose(3).rotations[1], (Quat{0, 0, 1, 0}));
+  // Turns as the largest number, the smallest and the one above it where there is a sign.
+  const auto turns_of = [](auto numbers, int type) {
+    GltfParts parts = small_gltf();
+    const size_t packed = parts.add(numbers, "VEC4", 4);
+    parts.json["accessors"][packed]["normalized"] = true;
+    if (type) parts.json["accessors"][packed]["componentType"] = type;
+    parts.json["animations"][0]["samplers"][0]["output"] = packed;
+    const Clip clip = must_read(parts)->clip();
+    std::vector<Quat> out;
+    for (int f = 0; f < 4; ++f) out.push_back(clip.pose(f).rotations[1]);
+    return out;
+  };
+  const std::vector<Quat> with_sign = {{}, {1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, 0, -1}};
+  EXPECT_EQ(turns_of(std::vector<int16_t>{0, 0, 0, 32767, 32767, 0, 0, 0, 0, -32768, 0, 0, 0, 0, 0,
+                                          -32767},
+                     0),
+            with_sign);
+  constexpr int kSignedByte = 5120;  // 128 is -128, 129 is -127.
+  EXPECT_EQ(turns_of(std::vector<uint8_t>{0, 0, 0, 127, 127, 0, 0, 0, 0, 128, 0, 0, 0, 0, 0, 129},
+                     kSignedByte),
+            with_sign);
+  const std::vector<Quat> without = {{}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+  EXPECT_EQ(
+      turns_of(std::vector<uint8_t>{0, 0, 0, 255, 255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0}, 0),
+      without);
 }
 
 TEST(GltfRead, a_stride_skips_what_lies_between) {
@@ -226,16 +215,8 @@ TEST(GltfRead, the_densest_channel_gives_the_rate) {
 }
 
 TEST(GltfRead, a_pose_held_by_two_keys_does_not_give_the_rate) {
-  GltfParts parts = small_gltf();
-  parts.json["animations"][0].erase("channels");
-  parts.json["animations"][0].erase("samplers");
   const Quat held = about_x(0.5);
-  std::vector<float> turns;
-  test::append(turns, held);
-  test::append(turns, held);
-  parts.add_channel(0, 1, "rotation", "LINEAR", parts.add_bounded({0, 2}, "SCALAR", 1),
-                    parts.add(turns, "VEC4", 4));
-  const Clip clip = must_read(parts)->clip();
+  const Clip clip = must_read(with_turns({0, 2}, {held, held}, "LINEAR"))->clip();
   EXPECT_EQ(clip.frame_time, 1.0 / 30);
   EXPECT_EQ(clip.frames, 61);
   EXPECT_EQ(clip.pose(60).rotations[1], held);
@@ -246,11 +227,7 @@ TEST(GltfRead, frames_begin_at_the_first_key_and_reach_the_last) {
   EXPECT_EQ(file->clip().frames, 8);  // At 20 a second.
   EXPECT_EQ(file->clip().pose(0).rotations[1], about_x(0));
   EXPECT_LT(angle_between(file->clip().pose(7).rotations[1], about_x(0.5)), 4 * 0x1p-24);
-}
-
-TEST(GltfRead, a_single_key_is_a_single_frame) {
-  const Clip clip = must_read(with_times({0.7f}))->clip();
-  EXPECT_EQ(clip.frames, 1);
+  EXPECT_EQ(must_read(with_times({0.7f}))->clip().frames, 1) << "of a single key";
 }
 
 TEST(GltfRead, a_file_without_animations_is_a_rest_pose) {

@@ -57,10 +57,7 @@ GltfParts rich_gltf() {
 bool check_harmless(const std::string& bytes) {
   auto file = parse_gltf(bytes, "walk.glb");
   if (!file) {
-    const std::string& message = file.error().message;
-    EXPECT_TRUE(message.starts_with("walk.glb: ")) << message;
-    EXPECT_NE(message.find("expected "), std::string::npos) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    expect_whole_message(file.error(), "walk.glb: ");
     return false;
   }
   const int clips = std::max<int>(static_cast<int>((*file)->clip_names().size()), 1);
@@ -103,15 +100,13 @@ constexpr size_t kByteStep = 1;
 #endif
 
 TEST(GltfSafety, every_changed_byte_is_harmless) {
-  constexpr unsigned char kValues[] = {0, '9', 0xff};
+  constexpr int kValues[] = {0, '9', 0xff};
   size_t accepted = 0, rejected = 0;
   const std::string bytes = test::to_glb(rich_gltf());
   for (size_t i = 0; i < bytes.size(); i += kByteStep) {
-    std::string spoilt = bytes;
-    spoilt[i] = static_cast<char>(kValues[i % std::size(kValues)]);
-    ++(check_harmless(spoilt) ? accepted : rejected);
-    spoilt[i] = static_cast<char>(bytes[i] ^ 1);
-    ++(check_harmless(spoilt) ? accepted : rejected);
+    for (const int value : {kValues[i % std::size(kValues)], -1}) {
+      ++(check_harmless(with_byte(bytes, i, value)) ? accepted : rejected);
+    }
   }
   // Both ways were taken, or this test says nothing.
   EXPECT_GT(accepted, 1000 / kByteStep);

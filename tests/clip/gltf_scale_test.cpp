@@ -182,22 +182,13 @@ TEST(GltfScale, animated_scales_are_in_the_places) {
                       parts.add(keys, "VEC3", 3));
     return parts;
   };
+  const auto grows = [](int i) { return Signs{1 + 0.02 * i, 1 + 0.02 * i, 1 + 0.02 * i}; };
+  const auto stretches = [](int i) { return Signs{1, 1 + 0.01 * i, 1 - 0.01 * i}; };
+  const auto is_mirrored = [](int) { return Signs{-1, 1, 1}; };
   for (const std::string name : {"Armature", "Hips", "Spine", "LeftArm"}) {
-    expect_read_and_written(with_keys(name,
-                                      [](int i) {
-                                        return Signs{1 + 0.02 * i, 1 + 0.02 * i, 1 + 0.02 * i};
-                                      }),
-                            name + " grows", 2 * kRounding);
-    expect_read_and_written(with_keys(name,
-                                      [](int i) {
-                                        return Signs{1, 1 + 0.01 * i, 1 - 0.01 * i};
-                                      }),
-                            name + " stretches", 4 * kRounding);
-    expect_read_and_written(with_keys(name,
-                                      [](int) {
-                                        return Signs{-1, 1, 1};
-                                      }),
-                            name + " is mirrored", kRounding);
+    expect_read_and_written(with_keys(name, grows), name + " grows", 2 * kRounding);
+    expect_read_and_written(with_keys(name, stretches), name + " stretches", 4 * kRounding);
+    expect_read_and_written(with_keys(name, is_mirrored), name + " is mirrored", kRounding);
   }
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "gltf_checks.h"
-#include "make_character.h"
-#include "make_gltf.h"
 #include "odd_files.h"
 
 namespace panache {
@@ -19,12 +17,7 @@ using test::Json;
 // later; each animation has times of its own.
 GltfParts shifted_character(float seconds) {
   GltfParts parts = test::character();
-  parts.json["animations"][0]["channels"].push_back(
-      {{"sampler", 0},
-       {"target",
-        {{"path", "pointer"},
-         {"extensions",
-          {{"KHR_animation_pointer", Json::object({{"pointer", "/materials/0/alpha"}})}}}}}});
+  add_extension_channel(parts);
   for (size_t a = 0; a < parts.json["animations"].size(); ++a) {
     const size_t count = parts.json["animations"][a]["samplers"].size();
     for (size_t s = 0; s < count; ++s) {

@@ -94,10 +94,5 @@ TEST(MotionFile, an_unknown_extension_is_answered_with_the_known_ones) {
   EXPECT_EQ(read_rejection("a/walk.fbx"), "a/walk.fbx: cannot be read: No such file or directory");
 }
 
-TEST(MotionFile, a_file_that_cannot_be_read_says_why) {
-  EXPECT_EQ(read_rejection("nowhere/walk.bvh"),
-            "nowhere/walk.bvh: cannot be read: No such file or directory");
-}
-
 }  // namespace
 }  // namespace panache
