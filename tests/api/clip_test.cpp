@@ -5,98 +5,90 @@
 
 namespace {
 
+using panache::test::created;
+using panache::test::Owned;
+using panache::test::rejection;
 using panache::test::Walk;
 
 class ClipApi : public panache::test::StickApi {
  protected:
-  // Styles a walk with one style; null where that fails.
-  panache_styled_clip* stylize(const Walk& walk, std::vector<panache_strength_key> keys,
-                               const panache_stylize_options* options = nullptr) const {
-    const panache_strength_track track = {panache_model_find_style(model_, "old"),
-                                          static_cast<int32_t>(keys.size()), keys.data()};
-    panache_styled_clip* out = nullptr;
-    EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, &track, 1, options, &out), PANACHE_OK)
-        << panache_last_error();
-    return out;
+  using Keys = std::vector<panache_strength_key>;
+
+  Owned<panache_styled_clip> styled_walk(const Walk& walk, const Keys& keys,
+                                         const panache_stylize_options* options = nullptr) const {
+    return stylize(walk.clip, "old", keys, options);
   }
-  static bool same_pose(const panache_styled_clip* styled, int frame, const Walk& walk, int other) {
-    return std::memcmp(panache_styled_clip_rotations(styled) + frame * 4 * STICK_JOINTS,
-                       walk.rotations.data() + other * 4 * STICK_JOINTS,
-                       4 * STICK_JOINTS * sizeof(float)) == 0 &&
-           std::memcmp(panache_styled_clip_translations(styled) + frame * 3 * STICK_JOINTS,
-                       walk.translations.data() + other * 3 * STICK_JOINTS,
-                       3 * STICK_JOINTS * sizeof(float)) == 0;
+  std::string message(panache_status status, const Walk& walk,
+                      const panache_stylize_options& options) const {
+    return rejection<panache_styled_clip>(status, [&](auto** out) {
+      return panache_stylize_clip(model_.get(), &walk.clip, nullptr, 0, &options, out);
+    });
+  }
+  static bool same_pose(const Owned<panache_styled_clip>& styled, int frame, const float* rotations,
+                        const float* translations) {
+    return std::memcmp(panache_styled_clip_rotations(styled.get()) + frame * 4 * STICK_JOINTS,
+                       rotations, 4 * STICK_JOINTS * sizeof(float)) == 0 &&
+           std::memcmp(panache_styled_clip_translations(styled.get()) + frame * 3 * STICK_JOINTS,
+                       translations, 3 * STICK_JOINTS * sizeof(float)) == 0;
+  }
+  static bool same_pose(const Owned<panache_styled_clip>& styled, int frame, const Walk& walk) {
+    return same_pose(styled, frame, &walk.rotations[static_cast<size_t>(4 * STICK_JOINTS * frame)],
+                     &walk.translations[static_cast<size_t>(3 * STICK_JOINTS * frame)]);
   }
 };
 
 TEST_F(ClipApi, a_clip_without_a_style_stays_bit_for_bit) {
-  const Walk walk(skeleton_, 90, false);
-  panache_styled_clip* styled = stylize(walk, {{0, 0}});
-  ASSERT_EQ(panache_styled_clip_frame_count(styled), 90);
+  const Walk walk = clip(90);
+  const auto styled = styled_walk(walk, {{0, 0}});
+  ASSERT_EQ(panache_styled_clip_frame_count(styled.get()), 90);
   for (int f = 0; f < 90; ++f) {
-    EXPECT_TRUE(same_pose(styled, f, walk, f)) << f;
-    EXPECT_EQ(panache_styled_clip_source_frames(styled)[f], f);
+    EXPECT_TRUE(same_pose(styled, f, walk)) << f;
+    EXPECT_EQ(panache_styled_clip_source_frames(styled.get())[f], f);
   }
-  panache_styled_clip_destroy(styled);
-  styled = nullptr;
-  ASSERT_EQ(panache_stylize_clip(model_, &walk.clip, nullptr, 0, nullptr, &styled), PANACHE_OK)
-      << panache_last_error();
-  EXPECT_TRUE(same_pose(styled, 89, walk, 89));
-  panache_styled_clip_destroy(styled);
-}
-
-// The shipped remover; null where it cannot be read.
-panache_model* read_remover() {
-  const std::string bytes = panache::test::file_bytes("remover-int8.safetensors");
-  panache_model* remover = nullptr;
-  EXPECT_EQ(panache_model_create(bytes.data(), bytes.size(), &remover), PANACHE_OK)
-      << panache_last_error();
-  return remover;
+  const auto without = created<panache_styled_clip>([&](auto** out) {
+    return panache_stylize_clip(model_.get(), &walk.clip, nullptr, 0, nullptr, out);
+  });
+  EXPECT_TRUE(same_pose(without, 89, walk));
 }
 
 TEST_F(ClipApi, a_style_is_taken_off_by_a_remover_and_by_no_other_model) {
-  const Walk walk(skeleton_, 90, false);
-  panache_model* remover = read_remover();
+  const Walk walk = clip(90);
+  const auto remover = panache::test::shipped_remover();
   panache_stylize_options options = PANACHE_STYLIZE_OPTIONS;
-  options.remover = remover;
-  options.removed = panache_model_find_style(remover, "any");
-  panache_styled_clip* styled = stylize(walk, {{0, 0}}, &options);
-  EXPECT_FALSE(same_pose(styled, 60, walk, 60));
-  panache_styled_clip_destroy(styled);
-  options.removed = panache_model_style_count(remover);
-  EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, nullptr, 0, &options, &styled),
-            PANACHE_BAD_ARGUMENT);
+  options.remover = remover.get();
+  options.removed = panache_model_find_style(remover.get(), "any");
+  EXPECT_FALSE(same_pose(styled_walk(walk, {{0, 0}}, &options), 60, walk));
+  options.removed = panache_model_style_count(remover.get());
+  message(PANACHE_BAD_ARGUMENT, walk, options);
   options.remover = nullptr;
-  EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, nullptr, 0, &options, &styled),
-            PANACHE_BAD_ARGUMENT);
-  options.remover = model_;
+  message(PANACHE_BAD_ARGUMENT, walk, options);
+  options.remover = model_.get();
   options.removed = 0;
-  EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, nullptr, 0, &options, &styled),
-            PANACHE_BAD_ARGUMENT);
-  panache_model_destroy(remover);
+  message(PANACHE_BAD_ARGUMENT, walk, options);
 }
 
 TEST_F(ClipApi, the_styles_of_a_clip_are_recognised) {
-  const Walk walk(skeleton_, 90, false);
-  panache_model* remover = read_remover();
-  const int32_t count = panache_model_style_count(remover) + 1;
-  std::vector<float> shares(static_cast<size_t>(count));
-  EXPECT_EQ(panache_recognise_styles(remover, &walk.clip, shares.data(), count), PANACHE_OK)
-      << panache_last_error();
+  const Walk walk = clip(90);
+  const auto remover = panache::test::shipped_remover();
+  const auto recognise = [&](const panache_model* model, std::vector<float>& shares) {
+    return panache_recognise_styles(model, &walk.clip, shares.data(),
+                                    static_cast<int32_t>(shares.size()));
+  };
+  std::vector<float> shares(static_cast<size_t>(panache_model_style_count(remover.get()) + 1)),
+      of_styles(static_cast<size_t>(panache_model_style_count(model_.get()) + 1));
+  EXPECT_EQ(recognise(remover.get(), shares), PANACHE_OK) << panache_last_error();
   float sum = 0;
   for (const float share : shares) sum += share;
   EXPECT_NEAR(sum, 1, 0.01);
-  EXPECT_EQ(panache_recognise_styles(remover, &walk.clip, shares.data(), count - 1),
-            PANACHE_BAD_ARGUMENT);
-  EXPECT_EQ(panache_recognise_styles(model_, &walk.clip, shares.data(),
-                                     panache_model_style_count(model_) + 1),
-            PANACHE_BAD_MODEL);
-  panache_model_destroy(remover);
+  EXPECT_EQ(recognise(model_.get(), of_styles), PANACHE_BAD_MODEL);
+  shares.pop_back();
+  EXPECT_EQ(recognise(remover.get(), shares), PANACHE_BAD_ARGUMENT);
 }
 
 TEST_F(ClipApi, a_clip_gets_the_tempo_of_its_style_unless_timing_is_off) {
-  const Walk walk(skeleton_, 240, false);
-  panache_styled_clip* styled = stylize(walk, {{0, 1}});
+  const Walk walk = clip(240);
+  const auto owned = styled_walk(walk, {{0, 1}});
+  const panache_styled_clip* styled = owned.get();
   const int frames = panache_styled_clip_frame_count(styled);
   EXPECT_NE(frames, 240);
   double last = -1;
@@ -113,31 +105,20 @@ TEST_F(ClipApi, a_clip_gets_the_tempo_of_its_style_unless_timing_is_off) {
   }
   EXPECT_LE(last, 239.001);
   EXPECT_TRUE(planted);
-  panache_styled_clip_destroy(styled);
 
   panache_stylize_options options = PANACHE_STYLIZE_OPTIONS;
   options.style_timing = 0;
-  panache_styled_clip* in_time = stylize(walk, {{0, 1}}, &options);
-  EXPECT_EQ(panache_styled_clip_frame_count(in_time), 240);
+  const auto in_time = styled_walk(walk, {{0, 1}}, &options);
+  EXPECT_EQ(panache_styled_clip_frame_count(in_time.get()), 240);
   // Frame by frame it is what a character does live.
-  panache_character* live = character("old");
-  const std::vector<stick_pose> stepped = StickApi::walk(live, 240);
-  EXPECT_EQ(std::memcmp(panache_styled_clip_rotations(in_time) + 239 * 4 * STICK_JOINTS,
-                        stepped[239].rotations, sizeof stepped[239].rotations),
-            0);
-  EXPECT_EQ(std::memcmp(panache_styled_clip_translations(in_time) + 239 * 3 * STICK_JOINTS,
-                        stepped[239].translations, sizeof stepped[239].translations),
-            0);
-  panache_styled_clip_destroy(in_time);
+  const std::vector<stick_pose> live = StickApi::walk(character("old"), 240);
+  EXPECT_TRUE(same_pose(in_time, 239, live[239].rotations[0], live[239].translations[0]));
 }
 
 TEST_F(ClipApi, a_loop_stays_one_unless_told_otherwise_or_asked_by_an_old_program) {
-  const Walk strides(skeleton_, 201, false), part(skeleton_, 220, false);  // 3 and 3.3 strides.
+  const Walk strides = clip(201), part = clip(220);  // 3 and 3.3 strides.
   const auto is_loop = [&](const Walk& walk, const panache_stylize_options* options) {
-    panache_styled_clip* styled = stylize(walk, {{0, 1}}, options);
-    const int32_t loop = panache_styled_clip_is_loop(styled);
-    panache_styled_clip_destroy(styled);
-    return loop;
+    return panache_styled_clip_is_loop(styled_walk(walk, {{0, 1}}, options).get());
   };
   panache_stylize_options options = PANACHE_STYLIZE_OPTIONS;
   EXPECT_EQ(is_loop(strides, nullptr), 1);
@@ -148,41 +129,30 @@ TEST_F(ClipApi, a_loop_stays_one_unless_told_otherwise_or_asked_by_an_old_progra
   options = PANACHE_STYLIZE_OPTIONS;
   options.loop = 0;
   EXPECT_EQ(is_loop(strides, &options), 0);
-  const panache_strength_key key = {0, 1};
-  const panache_strength_track track = {0, 1, &key};
-  panache_styled_clip* none = nullptr;
   options.loop = 2;
-  EXPECT_EQ(panache_stylize_clip(model_, &part.clip, &track, 1, &options, &none),
-            PANACHE_BAD_ARGUMENT);
-  EXPECT_EQ(std::string(panache_last_error()).find("the motion is not a loop: its last pose is "),
-            0u)
-      << panache_last_error();
+  const std::string no_loop = message(PANACHE_BAD_ARGUMENT, part, options);
+  EXPECT_TRUE(no_loop.starts_with("the motion is not a loop: its last pose is ")) << no_loop;
   options.loop = 3;
-  EXPECT_EQ(panache_stylize_clip(model_, &part.clip, &track, 1, &options, &none),
-            PANACHE_BAD_ARGUMENT);
-  EXPECT_EQ(none, nullptr);
+  message(PANACHE_BAD_ARGUMENT, part, options);
 }
 
 TEST_F(ClipApi, strength_goes_along_its_keys) {
-  const Walk walk(skeleton_, 180, false);
+  const Walk walk = clip(180);
   panache_stylize_options options = PANACHE_STYLIZE_OPTIONS;
   options.style_timing = 0;
-  panache_styled_clip* styled = stylize(walk, {{1, 0}, {2, 1}}, &options);
-  EXPECT_TRUE(same_pose(styled, 59, walk, 59));
-  EXPECT_FALSE(same_pose(styled, 170, walk, 170));
-  panache_styled_clip_destroy(styled);
+  const auto styled = styled_walk(walk, {{1, 0}, {2, 1}}, &options);
+  EXPECT_TRUE(same_pose(styled, 59, walk));
+  EXPECT_FALSE(same_pose(styled, 170, walk));
 }
 
 TEST_F(ClipApi, a_shape_of_nothing_is_the_input_and_a_region_is_its_own) {
-  const Walk walk(skeleton_, 120, false);
+  const Walk walk = clip(120);
   panache_shape shape = PANACHE_SHAPE;
   panache_stylize_options options = PANACHE_STYLIZE_OPTIONS;
   options.style_timing = 0;
   options.shape = &shape;
   shape.strength = 0;
-  panache_styled_clip* nothing = stylize(walk, {{0, 1}}, &options);
-  EXPECT_TRUE(same_pose(nothing, 119, walk, 119));
-  panache_styled_clip_destroy(nothing);
+  EXPECT_TRUE(same_pose(styled_walk(walk, {{0, 1}}, &options), 119, walk));
 
   // The same on a character, which is stepped.
   panache_character* shaped = character("old");
@@ -215,56 +185,53 @@ TEST_F(ClipApi, a_shape_of_nothing_is_the_input_and_a_region_is_its_own) {
 }
 
 TEST_F(ClipApi, what_is_wrong_with_tracks_and_clips_is_said) {
-  const Walk walk(skeleton_, 30, false);
-  const auto rejection = [&](panache_status expected, const panache_clip& clip,
-                             std::vector<panache_strength_key> keys, int32_t style) {
+  const Walk walk = clip(30);
+  const auto of_track = [&](int32_t style, Keys keys) {
     const panache_strength_track track = {style, static_cast<int32_t>(keys.size()), keys.data()};
-    panache_styled_clip* none = nullptr;
-    EXPECT_EQ(panache_stylize_clip(model_, &clip, &track, 1, nullptr, &none), expected);
-    EXPECT_EQ(none, nullptr);
-    return std::string(panache_last_error());
+    return rejection<panache_styled_clip>(PANACHE_BAD_ARGUMENT, [&](auto** out) {
+      return panache_stylize_clip(model_.get(), &walk.clip, &track, 1, nullptr, out);
+    });
   };
-  const std::string count = std::to_string(panache_model_style_count(model_));
-  EXPECT_EQ(rejection(PANACHE_BAD_ARGUMENT, walk.clip, {{0, 1}}, 300),
-            "track 0: there is no style 300; the model has " + count);
-  EXPECT_EQ(rejection(PANACHE_BAD_ARGUMENT, walk.clip, {}, 0),
-            "track 0: expected at least one key, found none");
-  EXPECT_EQ(rejection(PANACHE_BAD_ARGUMENT, walk.clip, {{1, 1}, {1, 0}}, 0),
-            "track 0: key 1: is not later than the one before it");
-  EXPECT_EQ(rejection(PANACHE_BAD_ARGUMENT, walk.clip, {{0, NAN}}, 0),
-            "track 0: key 0: is not finite");
+  EXPECT_EQ(of_track(300, {{0, 1}}), "track 0: there is no style 300; the model has " +
+                                         std::to_string(panache_model_style_count(model_.get())));
+  EXPECT_EQ(of_track(0, {}), "track 0: expected at least one key, found none");
+  EXPECT_EQ(of_track(0, {{1, 1}, {1, 0}}), "track 0: key 1: is not later than the one before it");
+  EXPECT_EQ(of_track(0, {{0, NAN}}), "track 0: key 0: is not finite");
   for (const int32_t tracks : {-1, 1}) {
-    panache_styled_clip* none = nullptr;
-    EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, nullptr, tracks, nullptr, &none),
-              PANACHE_BAD_ARGUMENT);
-    EXPECT_EQ(panache_last_error(),
+    EXPECT_EQ(rejection<panache_styled_clip>(PANACHE_BAD_ARGUMENT,
+                                             [&](auto** out) {
+                                               return panache_stylize_clip(model_.get(), &walk.clip,
+                                                                           nullptr, tracks, nullptr,
+                                                                           out);
+                                             }),
               std::to_string(tracks) + " tracks; expected an array of 0 or more");
   }
-  panache_clip clip = walk.clip;
-  clip.frame_count = 0;
-  EXPECT_EQ(rejection(PANACHE_BAD_CLIP, clip, {{0, 1}}, 0), "clip: has no frames");
-  for (const int32_t frames : {-1, 1'000'001}) {
-    clip.frame_count = frames;
-    EXPECT_EQ(rejection(PANACHE_BAD_CLIP, clip, {{0, 1}}, 0),
-              "clip: has " + std::to_string(frames) + " frames; expected up to 1000000");
+
+  constexpr struct {
+    const char* message;
+    void (*change)(Walk&);
+  } kClips[] = {
+      {"has no frames", [](Walk& w) { w.clip.frame_count = 0; }},
+      {"has -1 frames; expected up to 1000000", [](Walk& w) { w.clip.frame_count = -1; }},
+      {"has 1000001 frames; expected up to 1000000",
+       [](Walk& w) { w.clip.frame_count = 1'000'001; }},
+      {"has frames 1.500000 seconds apart; expected more than 0 and at most 1",
+       [](Walk& w) { w.clip.frame_seconds = 1.5; }},
+      {"has frames 0.000000 seconds apart; expected more than 0 and at most 1",
+       [](Walk& w) { w.clip.frame_seconds = 0; }},
+      {"pose 2, joint 5: its translation is not finite",
+       [](Walk& w) { w.translations[3 * (2 * STICK_JOINTS + 5)] = INFINITY; }},
+      {"pose 1, joint 7: its rotation is not a unit quaternion (x, y, z, w)",
+       [](Walk& w) { w.rotations[4 * (STICK_JOINTS + 7) + 3] = 2; }},
+      {"poses need both rotations and translations",
+       [](Walk& w) { w.clip.translations = nullptr; }},
+  };
+  for (const auto& row : kClips) {
+    Walk bad = clip(3);
+    row.change(bad);
+    EXPECT_EQ(message(PANACHE_BAD_CLIP, bad, PANACHE_STYLIZE_OPTIONS),
+              "clip: " + std::string(row.message));
   }
-  clip = walk.clip;
-  clip.frame_seconds = 1.5;
-  EXPECT_EQ(rejection(PANACHE_BAD_CLIP, clip, {{0, 1}}, 0),
-            "clip: has frames 1.500000 seconds apart; expected more than 0 and at most 1");
-  clip.frame_seconds = 0;
-  EXPECT_EQ(rejection(PANACHE_BAD_CLIP, clip, {{0, 1}}, 0),
-            "clip: has frames 0.000000 seconds apart; expected more than 0 and at most 1");
-  Walk bad(skeleton_, 3, false);
-  bad.translations[3 * (2 * STICK_JOINTS + 5)] = INFINITY;
-  EXPECT_EQ(rejection(PANACHE_BAD_CLIP, bad.clip, {{0, 1}}, 0),
-            "clip: pose 2, joint 5: its translation is not finite");
-  bad.rotations[4 * (STICK_JOINTS + 7) + 3] = 2;
-  EXPECT_EQ(rejection(PANACHE_BAD_CLIP, bad.clip, {{0, 1}}, 0),
-            "clip: pose 1, joint 7: its rotation is not a unit quaternion (x, y, z, w)");
-  bad.clip.translations = nullptr;
-  EXPECT_EQ(rejection(PANACHE_BAD_CLIP, bad.clip, {{0, 1}}, 0),
-            "clip: poses need both rotations and translations");
 }
 
 }  // namespace

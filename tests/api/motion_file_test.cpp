@@ -1,24 +1,22 @@
 // Motion files in memory.
-#include <memory>
-
 #include "stick_api.h"
 
 namespace {
 
+using panache::test::created;
+using panache::test::Owned;
+using panache::test::rejection;
+using panache::test::text_of;
 using panache::test::walk_bvh;
 
 constexpr int kFrames = 60;
 
-struct Destroy {
-  void operator()(panache_motion_file* file) const { panache_motion_file_destroy(file); }
-};
-using File = std::unique_ptr<panache_motion_file, Destroy>;
+using File = Owned<panache_motion_file>;
 
 File open(const std::string& bytes, const char* name = "walk.bvh") {
-  panache_motion_file* out = nullptr;
-  EXPECT_EQ(panache_motion_file_create(bytes.data(), bytes.size(), name, &out), PANACHE_OK)
-      << panache_last_error();
-  return File(out);
+  return created<panache_motion_file>([&](auto** out) {
+    return panache_motion_file_create(bytes.data(), bytes.size(), name, out);
+  });
 }
 
 panache_clip clip_of(const File& file, int32_t clip = 0) {
@@ -29,14 +27,9 @@ panache_clip clip_of(const File& file, int32_t clip = 0) {
 }
 
 std::string write(const File& file, const panache_clip_edit& edit) {
-  panache_bytes* out = nullptr;
-  EXPECT_EQ(panache_motion_file_write(file.get(), &edit, 1, PANACHE_REPLACE, &out), PANACHE_OK)
-      << panache_last_error();
-  if (!out) return "";
-  const std::string bytes(static_cast<const char*>(panache_bytes_data(out)),
-                          panache_bytes_size(out));
-  panache_bytes_destroy(out);
-  return bytes;
+  return text_of(created<panache_bytes>([&](auto** out) {
+    return panache_motion_file_write(file.get(), &edit, 1, PANACHE_REPLACE, out);
+  }));
 }
 
 class MotionFileApi : public panache::test::StickApi {};
@@ -99,23 +92,19 @@ TEST_F(MotionFileApi, what_is_not_changed_keeps_its_bytes) {
 
 TEST_F(MotionFileApi, a_motion_is_styled_and_written) {
   const File file = open(walk_bvh(kFrames));
-  panache_skeleton* skeleton = nullptr;
-  ASSERT_EQ(panache_motion_file_create_skeleton(file.get(), 0, nullptr, &skeleton), PANACHE_OK)
-      << panache_last_error();
-  EXPECT_EQ(panache_skeleton_find(skeleton, "leftToes"), 14);
+  const auto skeleton = created<panache_skeleton>(
+      [&](auto** out) { return panache_motion_file_create_skeleton(file.get(), 0, nullptr, out); });
+  EXPECT_EQ(panache_skeleton_find(skeleton.get(), "leftToes"), 14);
   panache_clip clip = clip_of(file);
-  clip.skeleton = skeleton;
-  const panache_strength_key key = {0, 1};
-  const panache_strength_track old = {panache_model_find_style(model_, "old"), 1, &key};
-  panache_styled_clip* styled = nullptr;
-  ASSERT_EQ(panache_stylize_clip(model_, &clip, &old, 1, nullptr, &styled), PANACHE_OK);
-  const int32_t frames = panache_styled_clip_frame_count(styled);
+  clip.skeleton = skeleton.get();
+  const auto styled = stylize(clip, "old");
+  const int32_t frames = panache_styled_clip_frame_count(styled.get());
   const panache_clip_edit edit = {
       0,
       "old",
-      {nullptr, frames, clip.frame_seconds, panache_styled_clip_rotations(styled),
-       panache_styled_clip_translations(styled)},
-      panache_styled_clip_source_frames(styled)};
+      {nullptr, frames, clip.frame_seconds, panache_styled_clip_rotations(styled.get()),
+       panache_styled_clip_translations(styled.get())},
+      panache_styled_clip_source_frames(styled.get())};
   const File written = open(write(file, edit));
   const panache_clip again = clip_of(written);
   ASSERT_EQ(again.frame_count, frames);
@@ -128,8 +117,6 @@ TEST_F(MotionFileApi, a_motion_is_styled_and_written) {
   }
   EXPECT_LT(difference, 1e-5);  // Of six digits of a degree, and of a float.
   EXPECT_GT(change, 0.05);
-  panache_styled_clip_destroy(styled);
-  panache_skeleton_destroy(skeleton);
 }
 
 TEST_F(MotionFileApi, a_new_motion_takes_the_place_of_a_bvh_files_own) {
@@ -142,36 +129,42 @@ TEST_F(MotionFileApi, a_new_motion_takes_the_place_of_a_bvh_files_own) {
   EXPECT_EQ(again.frame_seconds, 0.05);
 }
 
+std::string rejection_of(const std::string& bytes, const char* name) {
+  return rejection<panache_motion_file>(PANACHE_BAD_FILE, [&](auto** out) {
+    return panache_motion_file_create(bytes.data(), bytes.size(), name, out);
+  });
+}
+const std::string kHinge =
+    "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n"
+    "MOTION\nFrames: 1\nFrame Time: 0.1\n0\n";
+
 TEST_F(MotionFileApi, what_is_wrong_with_a_file_is_said) {
-  const auto rejection = [](const std::string& bytes, const char* name) {
-    panache_motion_file* none = nullptr;
-    EXPECT_EQ(panache_motion_file_create(bytes.data(), bytes.size(), name, &none),
-              PANACHE_BAD_FILE);
-    EXPECT_EQ(none, nullptr);
-    return std::string(panache_last_error());
+  const std::string expected =
+      "expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx), found ";
+  EXPECT_EQ(rejection_of(walk_bvh(1), "walk"), "walk: " + expected + "no extension");
+  EXPECT_EQ(rejection_of(walk_bvh(1), "walk.c3d"),
+            "walk.c3d: " + expected + "the extension '.c3d'");
+  EXPECT_TRUE(rejection_of("HIERARCHY\nROOF", "a.BVH").starts_with("a.BVH:2:1"));
+  const auto no_skeleton = [](panache_status status, const std::string& bytes, int32_t clip,
+                              const panache_skeleton_options* options = nullptr) {
+    return rejection<panache_skeleton>(status, [&](auto** out) {
+      return panache_motion_file_create_skeleton(open(bytes).get(), clip, options, out);
+    });
   };
-  EXPECT_EQ(rejection(walk_bvh(kFrames), "walk"),
-            "walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx), found no "
-            "extension");
-  EXPECT_EQ(
-      rejection(walk_bvh(kFrames), "walk.c3d"),
-      "walk.c3d: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx), found the "
-      "extension '.c3d'");
-  EXPECT_EQ(rejection("HIERARCHY\nROOF", "a.BVH").substr(0, 9), "a.BVH:2:1");
-  const std::string hinge =
-      "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n"
-      "MOTION\nFrames: 1\nFrame Time: 0.1\n0\n";
-  panache_skeleton* none = nullptr;
-  EXPECT_EQ(panache_motion_file_create_skeleton(open(hinge).get(), 0, nullptr, &none),
-            PANACHE_BAD_SKELETON);
-  EXPECT_EQ(none, nullptr);
-  EXPECT_EQ(std::string(panache_last_error()).substr(0, 10), "walk.bvh: ");
-  EXPECT_EQ(panache_motion_file_create_skeleton(open(hinge).get(), 1, nullptr, &none),
-            PANACHE_BAD_ARGUMENT);
-  EXPECT_STREQ(panache_last_error(), "walk.bvh: there is no motion 1; it has 1");
+  EXPECT_TRUE(no_skeleton(PANACHE_BAD_SKELETON, kHinge, 0).starts_with("walk.bvh: "));
+  EXPECT_EQ(no_skeleton(PANACHE_BAD_ARGUMENT, kHinge, 1),
+            "walk.bvh: there is no motion 1; it has 1");
   const panache_skeleton_options zeros{};
-  EXPECT_EQ(panache_motion_file_create_skeleton(open(walk_bvh(kFrames)).get(), 0, &zeros, &none),
-            PANACHE_BAD_ARGUMENT);
+  no_skeleton(PANACHE_BAD_ARGUMENT, walk_bvh(1), 0, &zeros);
+}
+
+TEST_F(MotionFileApi, an_error_kind_tells_a_missing_rate_from_a_damaged_file) {
+  std::string no_rate = kHinge;
+  no_rate.replace(no_rate.find("0.1\n"), 3, "0");
+  rejection_of(no_rate, "a.bvh");
+  EXPECT_EQ(panache_last_error_kind(), PANACHE_ERROR_RATE_NEEDED) << panache_last_error();
+  rejection_of("x", "a.bvh");
+  EXPECT_EQ(panache_last_error_kind(), PANACHE_ERROR_OTHER) << panache_last_error();
 }
 
 // Bytes of no character are replaced in what is shown, and stay in the file.
@@ -184,16 +177,10 @@ TEST_F(MotionFileApi, names_and_messages_are_utf_8_whatever_the_bytes_of_a_file_
   panache_motion_file_get_joint(file.get(), 14, &joint);
   EXPECT_STREQ(joint.name, "Left\xef\xbf\xbdToes");
   EXPECT_EQ(write(file, {0, nullptr, clip_of(file), nullptr}), text);
-  panache_bytes* notes = nullptr;
-  ASSERT_EQ(panache_motion_file_get_notes(file.get(), &notes), PANACHE_OK);
-  const std::string note(static_cast<const char*>(panache_bytes_data(notes)),
-                         panache_bytes_size(notes));
-  panache_bytes_destroy(notes);
+  const std::string note = text_of(created<panache_bytes>(
+      [&](auto** out) { return panache_motion_file_get_notes(file.get(), out); }));
   EXPECT_TRUE(note.starts_with("w\xef\xbf\xbdlk.bvh:")) << note;
-  panache_motion_file* none = nullptr;
-  EXPECT_EQ(panache_motion_file_create("HIERARCHY\nROOT \xff x", 17, "r\xf6t.bvh", &none),
-            PANACHE_BAD_FILE);
-  const std::string message = panache_last_error();
+  const std::string message = rejection_of("HIERARCHY\nROOT \xff x", "r\xf6t.bvh");
   EXPECT_TRUE(message.starts_with("r\xef\xbf\xbdt.bvh:")) << message;
   EXPECT_EQ(message.find_first_of("\xff\xf6"), std::string::npos) << message;
 }
@@ -209,58 +196,52 @@ TEST_F(MotionFileApi, a_vrm_animation_takes_one_edit) {
     "bufferViews": [{"buffer": 0, "byteLength": 8},
       {"buffer": 0, "byteOffset": 8, "byteLength": 32}],
     "buffers": [{"byteLength": 40, "uri": "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAACAPw=="}]})";
-  panache_motion_file* read = nullptr;
-  ASSERT_EQ(panache_motion_file_create(bytes.data(), bytes.size(), "walk.vrma", &read), PANACHE_OK)
-      << panache_last_error();
+  const File file = open(bytes, "walk.vrma");
   panache_clip_edit edit{};
-  ASSERT_EQ(panache_motion_file_get_clip(read, 0, &edit.frames), PANACHE_OK);
+  edit.frames = clip_of(file);
   const panache_clip_edit edits[] = {edit, edit};
-  panache_bytes* none = nullptr;
-  EXPECT_EQ(panache_motion_file_write(read, edits, 2, PANACHE_ADD_LAST, &none),
-            PANACHE_BAD_ARGUMENT);
-  EXPECT_STREQ(panache_last_error(),
-               "walk.vrma: 2 edits; expected 1, as a VRMA file holds one motion");
-  panache_motion_file_destroy(read);
+  EXPECT_EQ(rejection<panache_bytes>(PANACHE_BAD_ARGUMENT,
+                                     [&](auto** out) {
+                                       return panache_motion_file_write(file.get(), edits, 2,
+                                                                        PANACHE_ADD_LAST, out);
+                                     }),
+            "walk.vrma: 2 edits; expected 1, as a VRMA file holds one motion");
 }
 
 TEST_F(MotionFileApi, what_is_wrong_with_an_edit_is_said) {
   const File file = open(walk_bvh(kFrames));
   const panache_clip clip = clip_of(file);
-  const auto rejection = [&](std::vector<panache_clip_edit> edits, int mode = 0) {
-    panache_bytes* none = nullptr;
-    EXPECT_EQ(
-        panache_motion_file_write(file.get(), edits.data(), static_cast<int32_t>(edits.size()),
-                                  static_cast<panache_edit_mode>(mode), &none),
-        PANACHE_BAD_ARGUMENT);
-    EXPECT_EQ(none, nullptr);
-    return std::string(panache_last_error());
+  const auto message = [&](std::vector<panache_clip_edit> edits, int mode = 0) {
+    return rejection<panache_bytes>(PANACHE_BAD_ARGUMENT, [&](auto** out) {
+      return panache_motion_file_write(file.get(), edits.data(), static_cast<int32_t>(edits.size()),
+                                       static_cast<panache_edit_mode>(mode), out);
+    });
   };
   const panache_clip_edit good = {0, nullptr, clip, nullptr};
-  EXPECT_EQ(rejection({good}, 3), "there is no edit mode 3; expected 0 to 2");
-  EXPECT_EQ(rejection({}), "walk.bvh: 0 edits; expected 1, as a BVH file holds one motion");
-  EXPECT_EQ(rejection({good, good}),
-            "walk.bvh: 2 edits; expected 1, as a BVH file holds one motion");
+  EXPECT_EQ(message({good}, 3), "there is no edit mode 3; expected 0 to 2");
+  EXPECT_EQ(message({}), "walk.bvh: 0 edits; expected 1, as a BVH file holds one motion");
+  EXPECT_EQ(message({good, good}), "walk.bvh: 2 edits; expected 1, as a BVH file holds one motion");
   panache_clip_edit edit = good;
   edit.clip = 2;
-  EXPECT_EQ(rejection({edit}), "walk.bvh: there is no motion 2; it has 1");
+  EXPECT_EQ(message({edit}), "walk.bvh: there is no motion 2; it has 1");
   edit = good;
   edit.frames.frame_count = 0;
-  EXPECT_EQ(rejection({edit}), "edit 0: has no frames");
+  EXPECT_EQ(message({edit}), "edit 0: has no frames");
   edit = good;
   edit.frames.frame_count = 7;
-  EXPECT_EQ(rejection({edit}), "edit 0: has 7 frames and no source_frames; the motion has 60");
+  EXPECT_EQ(message({edit}), "edit 0: has 7 frames and no source_frames; the motion has 60");
   const std::vector<double> late(7, 60.0);
   edit.source_frames = late.data();
-  EXPECT_EQ(rejection({edit}), "edit 0: source frame 0 is 60.000000; expected 0 to 59");
+  EXPECT_EQ(message({edit}), "edit 0: source frame 0 is 60.000000; expected 0 to 59");
   edit = good;
   edit.frames.frame_seconds = 0.5;
-  EXPECT_EQ(rejection({edit}),
+  EXPECT_EQ(message({edit}),
             "edit 0: has frames 0.500000 seconds apart; those of the motion are 0.016667");
   std::vector<float> rotations(clip.rotations, clip.rotations + 4 * kFrames * STICK_JOINTS);
   rotations[4 * STICK_JOINTS + 3] = NAN;
   edit = good;
   edit.frames.rotations = rotations.data();
-  EXPECT_EQ(rejection({edit}),
+  EXPECT_EQ(message({edit}),
             "edit 0: frames: pose 1, joint 0: its rotation is not a unit quaternion (x, y, z, w)");
 }
 

@@ -1,7 +1,6 @@
 // What the C interface does where there is no memory: it says so, and its host lives on.
 #include <cstdio>
 #include <string>
-#include <vector>
 
 #include "../count_allocations.h"
 #include "stick_api.h"
@@ -9,7 +8,11 @@
 namespace {
 
 using panache::test::allocations_left;
+using panache::test::created;
 using panache::test::model_bytes;
+using panache::test::model_of;
+using panache::test::text_of;
+using panache::test::Walk;
 
 constexpr const char* kNoMemory = "out of memory";
 
@@ -44,31 +47,12 @@ TEST(NoMemory, is_what_the_last_error_says_whatever_was_thrown) {
   }
 }
 
-// A walk of the stick figure, `lean` radians forward above the hips.
-struct Walk {
-  static constexpr int kFrames = 180;
-  std::vector<float> rotations, translations;
-  explicit Walk(float lean) {
-    for (int f = 0; f < kFrames; ++f) {
-      stick_pose pose;
-      stick_walk(f / 60.0, 0, &pose);
-      stick_bend(&pose, 1, lean);
-      const panache_input_pose in = stick_input(&pose);
-      rotations.insert(rotations.end(), in.rotations, in.rotations + 4 * STICK_JOINTS);
-      translations.insert(translations.end(), in.translations, in.translations + 3 * STICK_JOINTS);
-    }
-  }
-  panache_clip clip(const panache_skeleton* skeleton) const {
-    return {skeleton, kFrames, 1 / 60.0, rotations.data(), translations.data()};
-  }
-};
+class Starved : public panache::test::StickApi {};
 
-TEST(NoMemory, learning_says_so_in_any_of_its_threads_and_does_not_end_its_host) {
+TEST_F(Starved, learning_says_so_in_any_of_its_threads_and_does_not_end_its_host) {
   const std::string bytes = model_bytes();
-  panache_skeleton* skeleton = nullptr;
-  ASSERT_EQ(panache_skeleton_create(stick_figure, STICK_JOINTS, nullptr, &skeleton), PANACHE_OK);
-  const Walk neutral(0), bent(0.4f);
-  const panache_pair pair = {neutral.clip(skeleton), bent.clip(skeleton)};
+  const Walk neutral = clip(180), bent = clip(180, true);
+  const panache_pair pair = {neutral.clip, bent.clip};
   panache_learnt* learnt = nullptr;
   const auto learn = [&] {
     return panache_learn(bytes.data(), bytes.size(), &pair, 1, "bent", 0, &learnt);
@@ -86,13 +70,12 @@ TEST(NoMemory, learning_says_so_in_any_of_its_threads_and_does_not_end_its_host)
     EXPECT_EQ(learnt, nullptr);
     EXPECT_STREQ(panache_last_error(), kNoMemory);
   }
-  panache_skeleton_destroy(skeleton);
 }
 
-// Each allocation of a call fails once, or each `step`-th where there are many. The call puts what
-// it makes into `made`, which `destroy` takes back; the first one without a failure succeeds.
-template <class Made, class Call, class Destroy>
-void starve(const char* name, Call&& call, Destroy&& destroy, long step = 1) {
+// Each allocation of a call fails once, or each `step`-th where there are many; the first call
+// without a failure succeeds.
+template <class Made, class Call>
+void starve(const char* name, Call&& call, long step = 1) {
   SCOPED_TRACE(name);
   long allowed = 0, failed = 0;
   for (;; allowed += step, ++failed) {
@@ -101,7 +84,7 @@ void starve(const char* name, Call&& call, Destroy&& destroy, long step = 1) {
     const panache_status status = with_allocations(allowed, [&] { return call(&made); });
     if (status == PANACHE_OK) {
       EXPECT_NE(made, nullptr);
-      destroy(made);
+      panache::test::Destroy()(made);
       break;
     }
     ASSERT_EQ(status, PANACHE_NO_MEMORY) << allowed << " allocations: " << panache_last_error();
@@ -114,110 +97,85 @@ void starve(const char* name, Call&& call, Destroy&& destroy, long step = 1) {
 
 // A model of which nothing but one style is left: each call is repeated once per allocation, and
 // each style costs some.
-std::string with_style_alone(const void* data, size_t size, const std::string& style) {
-  std::string bytes(static_cast<const char*>(data), size);
-  panache_model* model = nullptr;
-  EXPECT_EQ(panache_model_create(bytes.data(), bytes.size(), &model), PANACHE_OK);
-  for (int i = 0; i < panache_model_style_count(model); ++i) {
-    const char* name = panache_model_style_name(model, i);
+std::string with_style_alone(std::string bytes, const std::string& style) {
+  const auto model = model_of(bytes);
+  for (int i = 0; i < panache_model_style_count(model.get()); ++i) {
+    const char* name = panache_model_style_name(model.get(), i);
     if (name == style) continue;
-    panache_bytes* rest = nullptr;
-    EXPECT_EQ(panache_styles_remove(bytes.data(), bytes.size(), name, &rest), PANACHE_OK)
-        << panache_last_error();
-    bytes.assign(static_cast<const char*>(panache_bytes_data(rest)), panache_bytes_size(rest));
-    panache_bytes_destroy(rest);
+    bytes = text_of(created<panache_bytes>(
+        [&](auto** out) { return panache_styles_remove(bytes.data(), bytes.size(), name, out); }));
   }
-  panache_model_destroy(model);
   return bytes;
 }
 
-class Starved : public panache::test::StickApi {};
-
 TEST_F(Starved, models_and_styles_say_so_at_every_allocation) {
   constexpr long kStep = 5;
-  const std::string shipped = panache::test::model_bytes();
-  const Walk neutral(0), bent(0.4f);
-  const panache_pair pair = {neutral.clip(skeleton_), bent.clip(skeleton_)};
-  panache_learnt* learnt = nullptr;
-  ASSERT_EQ(panache_learn(shipped.data(), shipped.size(), &pair, 1, "bent", 0, &learnt), PANACHE_OK)
-      << panache_last_error();
-  size_t learnt_size = 0;
-  const void* learnt_model = panache_learnt_model(learnt, &learnt_size);
-  const std::string bytes = with_style_alone(learnt_model, learnt_size, "bent");
+  const std::string shipped = model_bytes();
+  const Walk neutral = clip(180), bent = clip(180, true);
+  const panache_pair pair = {neutral.clip, bent.clip};
+  const std::string bytes = with_style_alone(text_of(created<panache_learnt>([&](auto** out) {
+                                               return panache_learn(shipped.data(), shipped.size(),
+                                                                    &pair, 1, "bent", 0, out);
+                                             })),
+                                             "bent");
   const void* model = bytes.data();
   const size_t size = bytes.size();
   starve<panache_model>(
       "panache_model_create", [&](auto** out) { return panache_model_create(model, size, out); },
-      panache_model_destroy, kStep);
-  panache_bytes* style = nullptr;
-  ASSERT_EQ(panache_styles_extract(model, size, "bent", &style), PANACHE_OK);
-  starve<panache_bytes>(
-      "panache_styles_extract",
-      [&](auto** out) { return panache_styles_extract(model, size, "bent", out); },
-      panache_bytes_destroy, kStep);
+      kStep);
+  const auto extract = [&](auto** out) { return panache_styles_extract(model, size, "bent", out); };
+  starve<panache_bytes>("panache_styles_extract", extract, kStep);
+  const std::string style = text_of(created<panache_bytes>(extract));
   starve<panache_bytes>(
       "panache_styles_add",
       [&](auto** out) {
-        return panache_styles_add(model, size, panache_bytes_data(style), panache_bytes_size(style),
-                                  1, out);
+        return panache_styles_add(model, size, style.data(), style.size(), 1, out);
       },
-      panache_bytes_destroy, kStep);
-  panache_bytes_destroy(style);
-  panache_learnt_destroy(learnt);
+      kStep);
 }
 
 TEST_F(Starved, skeletons_characters_and_clips_say_so_at_every_allocation) {
-  starve<panache_skeleton>(
-      "panache_skeleton_create",
-      [&](auto** out) { return panache_skeleton_create(stick_figure, STICK_JOINTS, nullptr, out); },
-      panache_skeleton_destroy);
+  const panache_model* model = model_.get();
+  const panache_skeleton* skeleton = skeleton_.get();
+  starve<panache_skeleton>("panache_skeleton_create", [&](auto** out) {
+    return panache_skeleton_create(stick_figure, STICK_JOINTS, nullptr, out);
+  });
   panache_character_options options = PANACHE_CHARACTER_OPTIONS;
   options.max_lag = 1;
   options.max_lead = 0.1;
   options.skip_cycles = 1;
-  starve<panache_character>(
-      "panache_character_create",
-      [&](auto** out) { return panache_character_create(model_, skeleton_, &options, out); },
-      panache_character_destroy);
-  const Walk walk(0);
-  const panache_clip clip = walk.clip(skeleton_);
+  starve<panache_character>("panache_character_create", [&](auto** out) {
+    return panache_character_create(model, skeleton, &options, out);
+  });
+  const Walk walk = clip(180);
   const panache_strength_key key = {0, 1};
-  const panache_strength_track track = {panache_model_find_style(model_, "old"), 1, &key};
-  starve<panache_styled_clip>(
-      "panache_stylize_clip",
-      [&](auto** out) { return panache_stylize_clip(model_, &clip, &track, 1, nullptr, out); },
-      panache_styled_clip_destroy);
-  starve<panache_styled_clip>(
-      "panache_retarget_clip",
-      [&](auto** out) { return panache_retarget_clip(&clip, skeleton_, nullptr, out); },
-      panache_styled_clip_destroy);
-  const panache_pair pair = {clip, clip};
-  starve<panache_samples>(
-      "panache_samples_create", [&](auto** out) { return panache_samples_create(&pair, 1, out); },
-      panache_samples_destroy);
+  const panache_strength_track track = {style_of("old"), 1, &key};
+  starve<panache_styled_clip>("panache_stylize_clip", [&](auto** out) {
+    return panache_stylize_clip(model, &walk.clip, &track, 1, nullptr, out);
+  });
+  starve<panache_styled_clip>("panache_retarget_clip", [&](auto** out) {
+    return panache_retarget_clip(&walk.clip, skeleton, nullptr, out);
+  });
+  const panache_pair pair = {walk.clip, walk.clip};
+  starve<panache_samples>("panache_samples_create",
+                          [&](auto** out) { return panache_samples_create(&pair, 1, out); });
 }
 
 TEST_F(Starved, motion_files_say_so_at_every_allocation) {
   const std::string bytes = panache::test::walk_bvh(20);
-  starve<panache_motion_file>(
-      "panache_motion_file_create",
-      [&](auto** out) {
-        return panache_motion_file_create(bytes.data(), bytes.size(), "walk.bvh", out);
-      },
-      panache_motion_file_destroy);
-  panache_motion_file* file = nullptr;
-  ASSERT_EQ(panache_motion_file_create(bytes.data(), bytes.size(), "walk.bvh", &file), PANACHE_OK);
-  starve<panache_skeleton>(
-      "panache_motion_file_create_skeleton",
-      [&](auto** out) { return panache_motion_file_create_skeleton(file, 0, nullptr, out); },
-      panache_skeleton_destroy);
+  const auto create = [&](auto** out) {
+    return panache_motion_file_create(bytes.data(), bytes.size(), "walk.bvh", out);
+  };
+  starve<panache_motion_file>("panache_motion_file_create", create);
+  const auto file = created<panache_motion_file>(create);
+  starve<panache_skeleton>("panache_motion_file_create_skeleton", [&](auto** out) {
+    return panache_motion_file_create_skeleton(file.get(), 0, nullptr, out);
+  });
   panache_clip_edit edit{};
-  ASSERT_EQ(panache_motion_file_get_clip(file, 0, &edit.frames), PANACHE_OK);
-  starve<panache_bytes>(
-      "panache_motion_file_write",
-      [&](auto** out) { return panache_motion_file_write(file, &edit, 1, PANACHE_REPLACE, out); },
-      panache_bytes_destroy);
-  panache_motion_file_destroy(file);
+  ASSERT_EQ(panache_motion_file_get_clip(file.get(), 0, &edit.frames), PANACHE_OK);
+  starve<panache_bytes>("panache_motion_file_write", [&](auto** out) {
+    return panache_motion_file_write(file.get(), &edit, 1, PANACHE_REPLACE, out);
+  });
 }
 
 }  // namespace

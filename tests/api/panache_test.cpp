@@ -14,30 +14,34 @@
 
 namespace {
 
+using panache::test::created;
 using panache::test::model_bytes;
+using panache::test::model_of;
+using panache::test::Owned;
+using panache::test::rejection;
 using panache::test::report_of;
+using panache::test::text_of;
 using panache::test::Walk;
 using Api = panache::test::StickApi;
 
 TEST_F(Api, knows_its_styles_by_name_and_place) {
-  const int count = panache_model_style_count(model_);
+  const panache_model* model = model_.get();
+  const int count = panache_model_style_count(model);
   ASSERT_GT(count, 1);
-  for (int i = 0; i < count; ++i) {
-    EXPECT_EQ(panache_model_find_style(model_, panache_model_style_name(model_, i)), i);
-  }
-  EXPECT_EQ(panache_model_find_style(model_, "no such style"), -1);
-  EXPECT_EQ(panache_model_style_name(model_, -1), nullptr);
-  EXPECT_EQ(panache_model_style_name(model_, count), nullptr);
+  for (int i = 0; i < count; ++i) EXPECT_EQ(style_of(panache_model_style_name(model, i)), i);
+  EXPECT_EQ(style_of("no such style"), -1);
+  EXPECT_EQ(panache_model_style_name(model, -1), nullptr);
+  EXPECT_EQ(panache_model_style_name(model, count), nullptr);
   EXPECT_EQ(panache_version(), 200);
 }
 
 TEST_F(Api, finds_the_humanoid_in_the_skeleton) {
-  EXPECT_EQ(panache_skeleton_joint_count(skeleton_), STICK_JOINTS);
-  EXPECT_EQ(panache_skeleton_find(skeleton_, "hips"), 0);
-  EXPECT_EQ(panache_skeleton_find(skeleton_, "leftHand"), 7);
-  EXPECT_EQ(panache_skeleton_find(skeleton_, "rightToes"), 18);
-  EXPECT_EQ(panache_skeleton_find(skeleton_, "leftShoulder"), -1);
-  EXPECT_EQ(panache_skeleton_find(skeleton_, "tail"), -1);
+  EXPECT_EQ(panache_skeleton_joint_count(skeleton_.get()), STICK_JOINTS);
+  const std::pair<const char*, int> kJoints[] = {
+      {"hips", 0}, {"leftHand", 7}, {"rightToes", 18}, {"leftShoulder", -1}, {"tail", -1}};
+  for (const auto& [name, joint] : kJoints) {
+    EXPECT_EQ(panache_skeleton_find(skeleton_.get(), name), joint) << name;
+  }
 }
 
 TEST_F(Api, strength_zero_is_the_input_bit_for_bit_and_one_is_not) {
@@ -57,7 +61,7 @@ TEST_F(Api, strength_zero_is_the_input_bit_for_bit_and_one_is_not) {
 TEST_F(Api, many_at_once_are_the_same_as_one_after_another) {
   std::vector<panache_character*> one, all;
   for (int i = 0; i < 5; ++i) {
-    const char* style = panache_model_style_name(model_, i);
+    const char* style = panache_model_style_name(model_.get(), i);
     one.push_back(character(style));
     all.push_back(character(style));
   }
@@ -96,10 +100,7 @@ TEST_F(Api, a_crowd_may_be_of_any_size) {
 
 TEST_F(Api, characters_outlive_model_and_skeleton_handles) {
   panache_character* old = character("old");
-  panache_model_destroy(model_);
-  panache_skeleton_destroy(skeleton_);
-  model_ = nullptr;
-  skeleton_ = nullptr;
+  model_.reset(), skeleton_.reset();
   EXPECT_EQ(walk(old, 30).size(), 30u);
 }
 
@@ -151,79 +152,93 @@ TEST_F(Api, bad_poses_and_clocks_never_give_bad_poses) {
 }
 
 TEST_F(Api, what_is_wrong_is_said_in_a_message_and_nothing_is_created) {
-  panache_model* model = model_;
-  EXPECT_EQ(panache_model_create("no model", 8, &model), PANACHE_BAD_MODEL);
-  EXPECT_EQ(model, nullptr);
-  EXPECT_TRUE(std::string(panache_last_error()).starts_with("model: ")) << panache_last_error();
+  const std::string message = rejection<panache_model>(
+      PANACHE_BAD_MODEL, [](auto** out) { return panache_model_create("no model", 8, out); });
+  EXPECT_TRUE(message.starts_with("model: ")) << message;
 
-  panache_skeleton* skeleton = skeleton_;
-  std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
-  const auto rejection = [&](panache_status status) {
-    EXPECT_EQ(
-        panache_skeleton_create(joints.data(), static_cast<int>(joints.size()), nullptr, &skeleton),
-        status);
-    EXPECT_EQ(skeleton, nullptr);
-    joints.assign(stick_figure, stick_figure + STICK_JOINTS);
-    return std::string(panache_last_error());
+  using Joints = std::vector<panache_joint>;
+  const Joints figure(stick_figure, stick_figure + STICK_JOINTS);
+  const auto of_joints = [&](int32_t count, void (*change)(Joints&)) {
+    Joints joints = figure;
+    change(joints);
+    return rejection<panache_skeleton>(PANACHE_BAD_SKELETON, [&](auto** out) {
+      return panache_skeleton_create(joints.data(), count, nullptr, out);
+    });
   };
-  joints[3].parent = 5;
-  EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
-            "joint 3 'Neck': parent is 5; expected a joint before it, or -1");
-  joints[3].parent = 3;
-  EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
-            "joint 3 'Neck': parent is 3; expected a joint before it, or -1");
-  joints[3].parent = -2;
-  EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
-            "joint 3 'Neck': parent is -2; expected a joint before it, or -1");
-  joints[3].rotation[3] = 0;
-  EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
-            "joint 3 'Neck': its rest rotation is not a unit quaternion (x, y, z, w)");
-  joints[3].translation[1] = NAN;
-  EXPECT_EQ(rejection(PANACHE_BAD_SKELETON), "joint 3 'Neck': its rest translation is not finite");
-  joints.resize(5);
-  EXPECT_TRUE(
-      rejection(PANACHE_BAD_SKELETON).starts_with("no humanoid found: leftHand, rightHand"));
+  constexpr struct {
+    const char* message;
+    void (*change)(Joints&);
+  } kJoints[] = {
+      {"parent is 5; expected a joint before it, or -1", [](Joints& j) { j[3].parent = 5; }},
+      {"parent is 3; expected a joint before it, or -1", [](Joints& j) { j[3].parent = 3; }},
+      {"parent is -2; expected a joint before it, or -1", [](Joints& j) { j[3].parent = -2; }},
+      {"its rest rotation is not a unit quaternion (x, y, z, w)",
+       [](Joints& j) { j[3].rotation[3] = 0; }},
+      {"its rest translation is not finite", [](Joints& j) { j[3].translation[1] = NAN; }},
+  };
+  for (const auto& row : kJoints) {
+    EXPECT_EQ(of_joints(STICK_JOINTS, row.change), "joint 3 'Neck': " + std::string(row.message));
+  }
+  const auto none = [](Joints&) {};
+  EXPECT_TRUE(of_joints(5, none).starts_with("no humanoid found: leftHand, rightHand"));
   for (const int32_t count : {0, 10'001}) {
-    EXPECT_EQ(panache_skeleton_create(joints.data(), count, nullptr, &skeleton),
-              PANACHE_BAD_SKELETON);
-    EXPECT_EQ(panache_last_error(), std::to_string(count) + " joints; expected 1 to 10000");
+    EXPECT_EQ(of_joints(count, none), std::to_string(count) + " joints; expected 1 to 10000");
   }
 
-  panache_skeleton_options given = PANACHE_SKELETON_OPTIONS;
-  given.up_axis = "up";
-  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
-            PANACHE_BAD_ARGUMENT);
-  EXPECT_STREQ(panache_last_error(), "expected an up axis from +X to -Z, found 'up'");
-  given = PANACHE_SKELETON_OPTIONS;
-  given.metres_per_unit = -1;
-  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
-            PANACHE_BAD_ARGUMENT);
-  EXPECT_STREQ(panache_last_error(), "expected metres per unit above 0, found -1.000000");
-  given = PANACHE_SKELETON_OPTIONS;
-  for (const int32_t count : {-1, 10'001}) {
-    given.pose_count = count;
-    EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
-              PANACHE_BAD_ARGUMENT);
-    EXPECT_EQ(panache_last_error(), std::to_string(count) + " poses; expected 0 to 10000");
+  using Options = panache_skeleton_options;
+  constexpr struct {
+    const char* message;
+    void (*change)(Options&);
+  } kOptions[] = {
+      {"expected an up axis from +X to -Z, found 'up'", [](Options& o) { o.up_axis = "up"; }},
+      {"expected metres per unit above 0, found -1.000000",
+       [](Options& o) { o.metres_per_unit = -1; }},
+      {"-1 poses; expected 0 to 10000", [](Options& o) { o.pose_count = -1; }},
+      {"10001 poses; expected 0 to 10000", [](Options& o) { o.pose_count = 10'001; }},
+  };
+  for (const auto& row : kOptions) {
+    Options options = PANACHE_SKELETON_OPTIONS;
+    row.change(options);
+    EXPECT_EQ(rejection<panache_skeleton>(PANACHE_BAD_ARGUMENT,
+                                          [&](auto** out) {
+                                            return panache_skeleton_create(
+                                                figure.data(), STICK_JOINTS, &options, out);
+                                          }),
+              row.message);
   }
+  panache_character_destroy(nullptr);
+}
 
-  panache_character* none = nullptr;
-  panache_character_options options = PANACHE_CHARACTER_OPTIONS;
-  options.ease_seconds = -1;
-  EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &none), PANACHE_BAD_ARGUMENT);
-  EXPECT_EQ(none, nullptr);
-  panache_character_destroy(none);
+TEST_F(Api, character_options_out_of_their_range_are_rejected) {
+  using Options = panache_character_options;
+  constexpr struct {
+    const char* message;
+    void (*change)(Options&);
+  } kOptions[] = {
+      {"stylizer option of -1.000000 seconds; expected 0 to 10",
+       [](Options& o) { o.ease_seconds = -1; }},
+      {"max_lag of -1.000000 seconds; expected 0 to 4 seconds", [](Options& o) { o.max_lag = -1; }},
+      {"max_speed of -1.000000 m/s; expected more than 0", [](Options& o) { o.max_speed = -1; }},
+      {"max_speed of ", [](Options& o) { o.max_speed = NAN; }},
+      {"gesture rate of ", [](Options& o) { o.gesture_rate = -1; }},
+  };
+  for (const auto& row : kOptions) {
+    Options options = PANACHE_CHARACTER_OPTIONS;
+    row.change(options);
+    const std::string message = rejection<panache_character>(PANACHE_BAD_ARGUMENT, [&](auto** out) {
+      return panache_character_create(model_.get(), skeleton_.get(), &options, out);
+    });
+    EXPECT_TRUE(message.starts_with(row.message)) << message;
+  }
 }
 
 TEST_F(Api, a_character_may_be_late_and_says_by_how_much) {
   panache_character_options options = PANACHE_CHARACTER_OPTIONS;
   options.max_lag = 0.5;
   options.max_lead = 0.25;
-  panache_character* timed = nullptr;
-  ASSERT_EQ(panache_character_create(model_, skeleton_, &options, &timed), PANACHE_OK)
-      << panache_last_error();
+  panache_character* timed = character("childlike", 1, &options);
+  panache_character* again = character("childlike", 1, &options);
   panache_character* plain = character("childlike");
-  panache_character_set_strength(timed, panache_model_find_style(model_, "childlike"), 1);
   walk(timed, 600);
   walk(plain, 600);
   EXPECT_NE(report_of(timed).ahead, 0);
@@ -232,9 +247,6 @@ TEST_F(Api, a_character_may_be_late_and_says_by_how_much) {
   EXPECT_EQ(report_of(plain).ahead, 0);
 
   // Beside others in a crowd he has the same time.
-  panache_character* again = nullptr;
-  ASSERT_EQ(panache_character_create(model_, skeleton_, &options, &again), PANACHE_OK);
-  panache_character_set_strength(again, panache_model_find_style(model_, "childlike"), 1);
   panache_character* const crowd[] = {plain, again, plain};
   for (int f = 0; f < 600; ++f) {
     stick_pose in, out[3];
@@ -245,12 +257,6 @@ TEST_F(Api, a_character_may_be_late_and_says_by_how_much) {
     panache_step_many(crowd, 3, from, 1 / 60.0, to);
   }
   EXPECT_EQ(report_of(again).ahead, report_of(timed).ahead);
-
-  options.max_lag = -1;
-  panache_character* none = nullptr;
-  EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &none), PANACHE_BAD_ARGUMENT);
-  EXPECT_STREQ(panache_last_error(), "max_lag of -1.000000 seconds; expected 0 to 4 seconds");
-  for (panache_character* one : {timed, again}) panache_character_destroy(one);
 }
 
 TEST_F(Api, a_limit_of_speed_tells_a_jump_from_a_vehicle) {
@@ -258,10 +264,7 @@ TEST_F(Api, a_limit_of_speed_tells_a_jump_from_a_vehicle) {
     panache_character_options options = PANACHE_CHARACTER_OPTIONS;
     EXPECT_EQ(options.max_speed, 15);
     options.max_speed = max_speed;
-    panache_character* one = nullptr;
-    EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &one), PANACHE_OK)
-        << panache_last_error();
-    panache_character_set_strength(one, panache_model_find_style(model_, "OLD"), 1);
+    panache_character* one = character("OLD", 1, &options);
     std::vector<stick_pose> out(90);
     for (int f = 0; f < 90; ++f) {
       stick_pose in;
@@ -271,19 +274,11 @@ TEST_F(Api, a_limit_of_speed_tells_a_jump_from_a_vehicle) {
       panache_character_step(one, stick_input(&in), 1 / 60.0,
                              stick_output(&out[static_cast<size_t>(f)]));
     }
-    panache_character_destroy(one);
     return out;
   };
   EXPECT_TRUE(same(ride(0), ride(INFINITY)));
   EXPECT_TRUE(same(ride(0), ride(1e5)));
   EXPECT_FALSE(same(ride(0), ride(15)));
-  panache_character_options options = PANACHE_CHARACTER_OPTIONS;
-  panache_character* none = nullptr;
-  for (const double bad : {-1.0, double(NAN)}) {
-    options.max_speed = bad;
-    EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &none), PANACHE_BAD_ARGUMENT);
-    EXPECT_NE(std::string(panache_last_error()).find("max_speed of "), std::string::npos);
-  }
 }
 
 TEST_F(Api, every_prefix_of_a_model_is_rejected) {
@@ -308,96 +303,78 @@ TEST_F(Api, two_threads_style_two_characters_of_one_model) {
 }
 
 TEST_F(Api, learns_a_style_from_a_pair_of_clips) {
-  const std::string bytes = model_bytes();
-  const Walk neutral(skeleton_, 180, false), bent(skeleton_, 180, true);
+  const Walk neutral = clip(180), bent = clip(180, true);
   const panache_pair pair = {neutral.clip, bent.clip};
-  panache_learnt* learnt = nullptr;
-  ASSERT_EQ(panache_learn(bytes.data(), bytes.size(), &pair, 1, "bent", 0, &learnt), PANACHE_OK)
-      << panache_last_error();
+  const auto learn = [&](const std::string& model, int replace) {
+    return [&, replace](panache_learnt** out) {
+      return panache_learn(model.data(), model.size(), &pair, 1, "bent", replace, out);
+    };
+  };
+  const std::string bytes = model_bytes();
+  const Owned<panache_learnt> learnt = created<panache_learnt>(learn(bytes, 0));
   panache_learnt_report report = PANACHE_LEARNT_REPORT;
-  ASSERT_EQ(panache_learnt_get_report(learnt, &report), PANACHE_OK);
+  ASSERT_EQ(panache_learnt_get_report(learnt.get(), &report), PANACHE_OK);
   EXPECT_EQ(report.was_tested, 1);
   EXPECT_STREQ(report.warnings, "");
   EXPECT_LT(report.held_back_cm, 0.25 * report.untouched_cm);
-  EXPECT_STREQ(panache_learnt_verdict(learnt), "good");
+  EXPECT_STREQ(panache_learnt_verdict(learnt.get()), "good");
 
-  size_t size = 0;
-  const void* with_it = panache_learnt_model(learnt, &size);
-  panache_model* model = nullptr;
-  ASSERT_EQ(panache_model_create(with_it, size, &model), PANACHE_OK) << panache_last_error();
-  const int style = panache_model_find_style(model, "bent");
-  EXPECT_EQ(style, panache_model_style_count(model_));
-  panache_character* learner = nullptr;
-  ASSERT_EQ(panache_character_create(model, skeleton_, nullptr, &learner), PANACHE_OK);
-  panache_character_set_strength(learner, style, 1);
-  const std::vector<stick_pose> out = walk(learner, 120);
+  const std::string with_it = text_of(learnt);
+  const int own_styles = panache_model_style_count(model_.get());
+  model_ = model_of(with_it);
+  EXPECT_EQ(style_of("bent"), own_styles);
+  panache_character* learner = character("bent");
+  std::vector<stick_pose> out = walk(learner, 120);
   // The joint that was bent is, by nearly as much.
-  EXPECT_NEAR(stick_output(const_cast<stick_pose*>(&out.back())).rotations[4], std::sin(0.2f),
-              0.06);
+  EXPECT_NEAR(out.back().rotations[1][0], std::sin(0.2f), 0.06);
   EXPECT_GT(report_of(learner).gate, 0.9f);
-  panache_character_destroy(learner);
 
   // The same again, in the same bytes; and the name is taken now.
-  panache_learnt* again = nullptr;
-  ASSERT_EQ(panache_learn(bytes.data(), bytes.size(), &pair, 1, "bent", 0, &again), PANACHE_OK);
-  size_t same_size = 0;
-  const void* same_bytes = panache_learnt_model(again, &same_size);
-  ASSERT_EQ(same_size, size);
-  EXPECT_EQ(std::memcmp(same_bytes, with_it, size), 0);
-  panache_learnt_destroy(again);
-  EXPECT_EQ(panache_learn(with_it, size, &pair, 1, "bent", 0, &again), PANACHE_BAD_ARGUMENT);
-  EXPECT_STREQ(panache_last_error(),
-               "the model has a style 'bent' already; give another name, or replace it");
-  EXPECT_EQ(again, nullptr);
-  ASSERT_EQ(panache_learn(with_it, size, &pair, 1, "bent", 1, &again), PANACHE_OK);
-  panache_learnt_destroy(again);
-  panache_model_destroy(model);
-  panache_learnt_destroy(learnt);
+  EXPECT_EQ(text_of(created<panache_learnt>(learn(bytes, 0))), with_it);
+  EXPECT_EQ(rejection<panache_learnt>(PANACHE_BAD_ARGUMENT, learn(with_it, 0)),
+            "the model has a style 'bent' already; give another name, or replace it");
+  EXPECT_TRUE(created<panache_learnt>(learn(with_it, 1)));
 }
 
 TEST_F(Api, learns_a_style_from_one_clip) {
-  const std::string bytes = model_bytes(), bank = panache::test::file_bytes("neutral.safetensors");
-  const Walk bent(skeleton_, 180, true);
-  const auto learn = [&](const std::string& from, panache_learnt** learnt) {
-    return panache_learn_alone(bytes.data(), bytes.size(), from.data(), from.size(), &bent.clip,
-                               "bent", 0, learnt);
+  const std::string bytes = model_bytes();
+  const Walk bent = clip(180, true);
+  const auto learn = [&](const std::string& bank) {
+    return [&](panache_learnt** out) {
+      return panache_learn_alone(bytes.data(), bytes.size(), bank.data(), bank.size(), &bent.clip,
+                                 "bent", 0, out);
+    };
   };
-  panache_learnt* learnt = nullptr;
-  ASSERT_EQ(learn(bank, &learnt), PANACHE_OK) << panache_last_error();
+  const std::string bank = panache::test::file_bytes("neutral.safetensors");
+  const Owned<panache_learnt> learnt = created<panache_learnt>(learn(bank));
   panache_learnt_report report = PANACHE_LEARNT_REPORT;
-  ASSERT_EQ(panache_learnt_get_report(learnt, &report), PANACHE_OK);
+  ASSERT_EQ(panache_learnt_get_report(learnt.get(), &report), PANACHE_OK);
   EXPECT_GE(report.people, 5);
   EXPECT_GT(report.certainty, 0);
   EXPECT_LT(report.certainty, 1);
-  panache_learnt_destroy(learnt);
-  EXPECT_EQ(learn(bytes, &learnt), PANACHE_BAD_CLIP);
-  EXPECT_STREQ(panache_last_error(),
-               "the bank of neutral motion: is no bank of neutral motion; expected metadata "
-               "'format' to be 'panache-neutral'");
-  EXPECT_EQ(learnt, nullptr);
+  EXPECT_EQ(rejection<panache_learnt>(PANACHE_BAD_CLIP, learn(bytes)),
+            "the bank of neutral motion: is no bank of neutral motion; expected metadata "
+            "'format' to be 'panache-neutral'");
 }
 
 TEST_F(Api, says_why_it_cannot_learn) {
+  const Walk neutral = clip(180), brief = clip(12, true);
+  panache_pair pair = {neutral.clip, brief.clip};
+  const auto message = [&](panache_status status, const std::string& model, int pairs) {
+    return rejection<panache_learnt>(status, [&](auto** out) {
+      return panache_learn(model.data(), model.size(), &pair, pairs, "bent", 0, out);
+    });
+  };
   const std::string bytes = model_bytes();
-  const Walk neutral(skeleton_, 180, false), brief(skeleton_, 12, true);
-  panache_learnt* learnt = nullptr;
-  EXPECT_EQ(panache_learn(bytes.data(), bytes.size(), nullptr, 0, "bent", 0, &learnt),
-            PANACHE_BAD_CLIP);
-  EXPECT_STREQ(panache_last_error(),
-               "there is nothing to learn 'bent' from; give a neutral and a styled clip");
-  const panache_pair pair = {neutral.clip, brief.clip};
-  EXPECT_EQ(panache_learn(bytes.data(), bytes.size(), &pair, 1, "bent", 0, &learnt),
-            PANACHE_BAD_CLIP);
-  EXPECT_STREQ(panache_last_error(),
-               "pair 1, styled: has 0.20 s of motion; a style is learnt from 0.50 s at least, "
-               "better from 2 to 3 s; give a longer clip");
-  panache_pair without = {neutral.clip, brief.clip};
-  without.neutral.translations = nullptr;
-  EXPECT_EQ(panache_learn(bytes.data(), bytes.size(), &without, 1, "bent", 0, &learnt),
-            PANACHE_BAD_CLIP);
-  EXPECT_STREQ(panache_last_error(), "pair 1, neutral: poses need both rotations and translations");
-  EXPECT_EQ(panache_learn("x", 1, &pair, 1, "bent", 0, &learnt), PANACHE_BAD_MODEL);
-  EXPECT_EQ(learnt, nullptr);
+  EXPECT_EQ(message(PANACHE_BAD_CLIP, bytes, 0),
+            "there is nothing to learn 'bent' from; give a neutral and a styled clip");
+  EXPECT_EQ(message(PANACHE_BAD_CLIP, bytes, 1),
+            "pair 1, styled: has 0.20 s of motion; a style is learnt from 0.50 s at least, "
+            "better from 2 to 3 s; give a longer clip");
+  message(PANACHE_BAD_MODEL, "x", 1);
+  pair.neutral.translations = nullptr;
+  EXPECT_EQ(message(PANACHE_BAD_CLIP, bytes, 1),
+            "pair 1, neutral: poses need both rotations and translations");
 }
 
 }  // namespace

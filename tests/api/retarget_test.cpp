@@ -5,37 +5,40 @@
 
 namespace {
 
+using panache::test::created;
+using panache::test::Owned;
+using panache::test::rejection;
 using panache::test::Walk;
 
-class RetargetApi : public panache::test::StickApi {
- protected:
-  static panache_skeleton* figure(float size) {
-    std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
-    for (panache_joint& joint : joints) {
-      for (float& x : joint.translation) x *= size;
-    }
-    panache_skeleton* out = nullptr;
-    EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, nullptr, &out), PANACHE_OK)
-        << panache_last_error();
-    return out;
-  }
-  static panache_styled_clip* put(const Walk& walk, const panache_skeleton* onto) {
-    panache_styled_clip* out = nullptr;
-    EXPECT_EQ(panache_retarget_clip(&walk.clip, onto, nullptr, &out), PANACHE_OK)
-        << panache_last_error();
-    return out;
-  }
-};
+using Joints = std::vector<panache_joint>;
+
+Joints figure() { return {stick_figure, stick_figure + STICK_JOINTS}; }
+
+Owned<panache_skeleton> skeleton_of(const Joints& joints) {
+  return created<panache_skeleton>([&](auto** out) {
+    return panache_skeleton_create(joints.data(), STICK_JOINTS, nullptr, out);
+  });
+}
+
+Owned<panache_styled_clip> put(const Walk& walk, const Owned<panache_skeleton>& onto,
+                               const panache_retarget_options* options = nullptr) {
+  return created<panache_styled_clip>(
+      [&](auto** out) { return panache_retarget_clip(&walk.clip, onto.get(), options, out); });
+}
+
+class RetargetApi : public panache::test::StickApi {};
 
 TEST_F(RetargetApi, a_larger_figure_goes_further) {
-  const Walk walk(skeleton_, 90, false);
-  panache_skeleton* twice = figure(2);
-  panache_styled_clip* same = put(walk, skeleton_);
-  panache_styled_clip* large = put(walk, twice);
-  ASSERT_EQ(panache_styled_clip_frame_count(same), 90);
-  ASSERT_EQ(panache_styled_clip_frame_count(large), 90);
-  const float* a = panache_styled_clip_translations(same);
-  const float* b = panache_styled_clip_translations(large);
+  const Walk walk = clip(90);
+  Joints twice = figure();
+  for (panache_joint& joint : twice) {
+    for (float& x : joint.translation) x *= 2;
+  }
+  const auto same = put(walk, skeleton_), large = put(walk, skeleton_of(twice));
+  ASSERT_EQ(panache_styled_clip_frame_count(same.get()), 90);
+  ASSERT_EQ(panache_styled_clip_frame_count(large.get()), 90);
+  const float* a = panache_styled_clip_translations(same.get());
+  const float* b = panache_styled_clip_translations(large.get());
   float far = 0;
   bool planted = false;
   for (int f = 0; f < 90; ++f) {
@@ -44,15 +47,12 @@ TEST_F(RetargetApi, a_larger_figure_goes_further) {
       EXPECT_NEAR(b[at], 2 * a[at], 2e-3f) << f;
       far = std::max(far, std::abs(a[at] - a[k]));
     }
-    EXPECT_EQ(panache_styled_clip_source_frames(large)[f], f);
-    EXPECT_EQ(panache_styled_clip_gates(large)[f], 1);
-    planted |= panache_styled_clip_contacts(large)[2 * f] == 1;
+    EXPECT_EQ(panache_styled_clip_source_frames(large.get())[f], f);
+    EXPECT_EQ(panache_styled_clip_gates(large.get())[f], 1);
+    planted |= panache_styled_clip_contacts(large.get())[2 * f] == 1;
   }
   EXPECT_GT(far, 0.2f);
   EXPECT_TRUE(planted);
-  panache_styled_clip_destroy(same);
-  panache_styled_clip_destroy(large);
-  panache_skeleton_destroy(twice);
 }
 
 // The figure stands with its arms stretched ahead and its hands together.
@@ -99,43 +99,40 @@ std::array<float, 3> position(const panache_styled_clip* clip, int joint) {
 }
 
 TEST_F(RetargetApi, hands_meet_and_feet_stand_where_asked_for) {
-  const Clap clap(skeleton_);
+  const Clap clap(skeleton_.get());
   // Shoulders 12 cm further apart, and legs of which the right one ends 8 cm lower.
-  std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
+  Joints joints = figure();
   joints[5].translation[0] = 0.25f, joints[8].translation[0] = -0.25f;
   joints[12].translation[1] = -0.3f, joints[16].translation[1] = -0.5f;
   constexpr float kFloor = 0.95f - 0.04f - 0.5f - 0.41f - 0.07f;
-  panache_skeleton* other = nullptr;
-  ASSERT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, nullptr, &other), PANACHE_OK);
+  const auto other = skeleton_of(joints);
   for (const bool feet : {true, false}) {
     for (const bool hands : {true, false}) {
       const panache_retarget_options options = {sizeof options, feet, hands};
-      panache_styled_clip* out = nullptr;
-      ASSERT_EQ(panache_retarget_clip(&clap.clip, other, &options, &out), PANACHE_OK);
-      const float apart = position(out, 7)[0] - position(out, 10)[0], toes = position(out, 18)[1];
+      const auto out = put(clap, other, &options);
+      const float apart = position(out.get(), 7)[0] - position(out.get(), 10)[0];
+      const float toes = position(out.get(), 18)[1];
       // The arms are stretched, and do not quite reach.
       EXPECT_TRUE(hands ? apart < 0.03f : apart > 0.12f) << feet << hands << ": " << apart;
       EXPECT_TRUE(feet ? std::abs(toes - kFloor) < 1e-3f : toes < kFloor - 0.05f)
           << feet << hands << ": " << toes;
-      panache_styled_clip_destroy(out);
     }
   }
-  panache_skeleton_destroy(other);
 }
 
 TEST_F(RetargetApi, bad_options_and_clips_are_rejected) {
-  const Walk walk(skeleton_, 10, false);
-  panache_styled_clip* out = nullptr;
-  panache_retarget_options options = {};
-  EXPECT_EQ(panache_retarget_clip(&walk.clip, skeleton_, &options, &out), PANACHE_BAD_ARGUMENT);
-  EXPECT_STREQ(panache_last_error(),
-               "panache_retarget_options: its struct_size is 0, expected "
-               "sizeof(panache_retarget_options)");
-  EXPECT_EQ(out, nullptr);
-  panache_clip empty = walk.clip;
-  empty.frame_count = 0;
-  EXPECT_EQ(panache_retarget_clip(&empty, skeleton_, nullptr, &out), PANACHE_BAD_CLIP);
-  EXPECT_STREQ(panache_last_error(), "clip: has no frames");
+  Walk walk = clip(10);
+  const auto message = [&](panache_status status, const panache_retarget_options* options) {
+    return rejection<panache_styled_clip>(status, [&](auto** out) {
+      return panache_retarget_clip(&walk.clip, skeleton_.get(), options, out);
+    });
+  };
+  const panache_retarget_options zeros = {};
+  EXPECT_EQ(message(PANACHE_BAD_ARGUMENT, &zeros),
+            "panache_retarget_options: its struct_size is 0, expected "
+            "sizeof(panache_retarget_options)");
+  walk.clip.frame_count = 0;
+  EXPECT_EQ(message(PANACHE_BAD_CLIP, nullptr), "clip: has no frames");
 }
 
 }  // namespace

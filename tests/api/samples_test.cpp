@@ -3,20 +3,20 @@
 
 namespace {
 
+using panache::test::created;
+using panache::test::rejection;
 using panache::test::Walk;
 
-class SamplesApi : public panache::test::StickApi {
- protected:
-  static panache_samples* create(const panache_pair& pair) {
-    panache_samples* out = nullptr;
-    EXPECT_EQ(panache_samples_create(&pair, 1, &out), PANACHE_OK) << panache_last_error();
-    return out;
-  }
-};
+class SamplesApi : public panache::test::StickApi {};
+
+auto create(const panache_pair& pair) {
+  return [&](panache_samples** out) { return panache_samples_create(&pair, 1, out); };
+}
 
 TEST_F(SamplesApi, a_neutral_clip_gives_a_window_of_each_instant) {
-  const Walk walk(skeleton_, 121, false);  // 2 s at 60 Hz.
-  panache_samples* samples = create({walk.clip, {}});
+  const Walk walk = clip(121);  // 2 s at 60 Hz.
+  const auto owned = created<panache_samples>(create({walk.clip, {}}));
+  const panache_samples* samples = owned.get();
   ASSERT_EQ(panache_samples_count(samples), 61);
   const float* windows = panache_samples_windows(samples);
   for (int i = 0; i < 63; ++i) EXPECT_EQ(windows[i], windows[66 + i]) << "before the first pose";
@@ -33,12 +33,12 @@ TEST_F(SamplesApi, a_neutral_clip_gives_a_window_of_each_instant) {
   bool planted = false;
   for (int i = 0; i < 122; ++i) planted |= panache_samples_contacts(samples)[i] == 1;
   EXPECT_TRUE(planted);
-  panache_samples_destroy(samples);
 }
 
 TEST_F(SamplesApi, a_pair_shows_what_its_style_does) {
-  const Walk walk(skeleton_, 150, false), bent(skeleton_, 150, true);  // By 0.4 rad at the spine.
-  panache_samples* samples = create({walk.clip, bent.clip});
+  const Walk walk = clip(150), bent = clip(150, true);  // By 0.4 rad at the spine.
+  const auto owned = created<panache_samples>(create({walk.clip, bent.clip}));
+  const panache_samples* samples = owned.get();
   const int32_t count = panache_samples_count(samples);
   ASSERT_GT(count, 30);
   for (int32_t s = 0; s < count; ++s) {
@@ -53,26 +53,22 @@ TEST_F(SamplesApi, a_pair_shows_what_its_style_does) {
   bool planted = false;
   for (int32_t i = 0; i < 2 * count; ++i) planted |= panache_samples_contacts(samples)[i] == 1;
   EXPECT_TRUE(planted);
-  panache_samples_destroy(samples);
 }
 
 TEST_F(SamplesApi, what_is_wrong_with_a_pair_is_said) {
-  const Walk walk(skeleton_, 60, false), brief(skeleton_, 3, true);
-  panache_samples* none = nullptr;
-  const auto rejection = [&](const panache_pair& pair) {
-    EXPECT_EQ(panache_samples_create(&pair, 1, &none), PANACHE_BAD_CLIP);
-    EXPECT_EQ(none, nullptr);
-    return std::string(panache_last_error());
+  const Walk walk = clip(60), brief = clip(3, true);
+  const auto message = [](const panache_pair& pair) {
+    return rejection<panache_samples>(PANACHE_BAD_CLIP, create(pair));
   };
-  EXPECT_EQ(rejection({walk.clip, brief.clip}).substr(0, 32), "pair 1, styled: has 0.05 s of mo");
+  EXPECT_EQ(message({walk.clip, brief.clip}).substr(0, 32), "pair 1, styled: has 0.05 s of mo");
   panache_clip empty = walk.clip;
   empty.frame_count = 0;
-  EXPECT_EQ(rejection({empty, walk.clip}), "pair 1, neutral: has no frames");
+  EXPECT_EQ(message({empty, walk.clip}), "pair 1, neutral: has no frames");
   panache_clip unknown = walk.clip;
   unknown.translations = nullptr;
-  EXPECT_EQ(rejection({unknown, walk.clip}),
+  EXPECT_EQ(message({unknown, walk.clip}),
             "pair 1, neutral: poses need both rotations and translations");
-  EXPECT_EQ(rejection({walk.clip, unknown}),
+  EXPECT_EQ(message({walk.clip, unknown}),
             "pair 1, styled: poses need both rotations and translations");
 }
 

@@ -1,6 +1,5 @@
 // Structs that begin with their own size: what older and newer programs pass.
 
-#include <array>
 #include <cstddef>
 #include <cstring>
 
@@ -9,6 +8,8 @@
 namespace {
 
 using SizedStructs = panache::test::StickApi;
+using panache::test::created;
+using panache::test::rejection;
 using panache::test::report_of;
 
 template <class T>
@@ -52,9 +53,7 @@ TEST_F(SizedStructs, of_an_older_program_are_shorter_and_the_rest_is_as_by_defau
   panache_character_options options = PANACHE_CHARACTER_OPTIONS;
   options.struct_size = offsetof(panache_character_options, skip_cycles);
   options.max_lag = -1;
-  panache_character* late = nullptr;
-  EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &late), PANACHE_OK);
-  panache_character_destroy(late);
+  character(nullptr, 1, &options);
 }
 
 TEST_F(SizedStructs, of_a_newer_program_are_longer_and_must_not_ask_for_what_is_not_there) {
@@ -73,123 +72,116 @@ TEST_F(SizedStructs, of_a_newer_program_are_longer_and_must_not_ask_for_what_is_
 
 TEST_F(SizedStructs, without_a_possible_size_are_rejected_by_every_function_that_takes_one) {
   panache_character* old = character("old");
-  const uint32_t kBad[] = {0, 3, 7, 5000, 0xffffffff};
-  for (const uint32_t size : kBad) {
-    const auto rejected = [&](panache_status status, const std::string& name) {
-      EXPECT_EQ(status, PANACHE_BAD_ARGUMENT) << name;
-      EXPECT_EQ(panache_last_error(), name + ": its struct_size is " + std::to_string(size) +
-                                          ", expected sizeof(" + name + ")");
+  const panache::test::Walk walk = clip(30);
+  for (const uint32_t size : {0u, 3u, 7u, 5000u, 0xffffffffu}) {
+    const auto expect_message = [&](const std::string& name, const std::string& message) {
+      EXPECT_EQ(message, name + ": its struct_size is " + std::to_string(size) +
+                             ", expected sizeof(" + name + ")");
     };
     panache_shape shape = PANACHE_SHAPE;
     shape.struct_size = size;
-    rejected(panache_character_set_shape(old, &shape), "panache_shape");
+    EXPECT_EQ(panache_character_set_shape(old, &shape), PANACHE_BAD_ARGUMENT);
+    expect_message("panache_shape", panache_last_error());
     panache_report report = PANACHE_REPORT;
     report.struct_size = size;
-    rejected(panache_character_get_report(old, &report), "panache_report");
+    EXPECT_EQ(panache_character_get_report(old, &report), PANACHE_BAD_ARGUMENT);
+    expect_message("panache_report", panache_last_error());
     panache_character_options character_options = PANACHE_CHARACTER_OPTIONS;
     character_options.struct_size = size;
-    panache_character* none = old;
-    rejected(panache_character_create(model_, skeleton_, &character_options, &none),
-             "panache_character_options");
-    EXPECT_EQ(none, nullptr);
+    expect_message("panache_character_options",
+                   rejection<panache_character>(PANACHE_BAD_ARGUMENT, [&](auto** out) {
+                     return panache_character_create(model_.get(), skeleton_.get(),
+                                                     &character_options, out);
+                   }));
     panache_skeleton_options skeleton_options = PANACHE_SKELETON_OPTIONS;
     skeleton_options.struct_size = size;
-    panache_skeleton* no_skeleton = skeleton_;
-    rejected(panache_skeleton_create(stick_figure, STICK_JOINTS, &skeleton_options, &no_skeleton),
-             "panache_skeleton_options");
-    EXPECT_EQ(no_skeleton, nullptr);
+    expect_message("panache_skeleton_options",
+                   rejection<panache_skeleton>(PANACHE_BAD_ARGUMENT, [&](auto** out) {
+                     return panache_skeleton_create(stick_figure, STICK_JOINTS, &skeleton_options,
+                                                    out);
+                   }));
     panache_stylize_options stylize_options = PANACHE_STYLIZE_OPTIONS;
-    stylize_options.struct_size = size;
-    const panache::test::Walk walk(skeleton_, 30, false);
-    panache_styled_clip* no_clip = nullptr;
-    rejected(panache_stylize_clip(model_, &walk.clip, nullptr, 0, &stylize_options, &no_clip),
-             "panache_stylize_options");
-    stylize_options = PANACHE_STYLIZE_OPTIONS;
+    const auto stylize = [&](auto** out) {
+      return panache_stylize_clip(model_.get(), &walk.clip, nullptr, 0, &stylize_options, out);
+    };
     stylize_options.shape = &shape;
-    rejected(panache_stylize_clip(model_, &walk.clip, nullptr, 0, &stylize_options, &no_clip),
-             "panache_shape");
+    expect_message("panache_shape", rejection<panache_styled_clip>(PANACHE_BAD_ARGUMENT, stylize));
+    stylize_options.struct_size = size;
+    expect_message("panache_stylize_options",
+                   rejection<panache_styled_clip>(PANACHE_BAD_ARGUMENT, stylize));
   }
 }
 
 // The joint map of panache_skeleton_options.
 
-using JointMap = panache::test::StickApi;
+class JointMap : public panache::test::StickApi {
+ protected:
+  using Map = std::vector<panache_human_joint>;
 
-panache_status create(const std::vector<panache_joint>& joints,
-                      const std::vector<panache_human_joint>& map, panache_skeleton** out) {
-  panache_skeleton_options options = PANACHE_SKELETON_OPTIONS;
-  options.human_joints = map.data();
-  options.human_joint_count = static_cast<int32_t>(map.size());
-  return panache_skeleton_create(joints.data(), static_cast<int32_t>(joints.size()), &options, out);
-}
+  // The skeleton of the figure with a map; `count` is of the map.
+  auto create(const Map& map, int32_t count) const {
+    return [&, count](panache_skeleton** out) {
+      panache_skeleton_options options = PANACHE_SKELETON_OPTIONS;
+      options.human_joints = map.data();
+      options.human_joint_count = count;
+      return panache_skeleton_create(joints_.data(), STICK_JOINTS, &options, out);
+    };
+  }
+  void expect_finds(const Map& map, const Map& expected) const {
+    const auto mapped = created<panache_skeleton>(create(map, static_cast<int32_t>(map.size())));
+    for (const panache_human_joint& joint : expected) {
+      EXPECT_EQ(panache_skeleton_find(mapped.get(), joint.vrm_name), joint.joint) << joint.vrm_name;
+    }
+  }
+
+  std::vector<panache_joint> joints_{stick_figure, stick_figure + STICK_JOINTS};
+};
 
 TEST_F(JointMap, says_which_joints_they_are_even_where_all_have_one_name) {
-  std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
-  for (panache_joint& joint : joints) joint.name = "joint";
-  panache_skeleton* mapped = nullptr;
-  ASSERT_EQ(
-      create(joints, {{"head", 4}, {"leftToes", -1}, {"leftHand", 7}, {"rightHand", 10}}, &mapped),
-      PANACHE_OK)
-      << panache_last_error();
-  EXPECT_EQ(panache_skeleton_find(mapped, "head"), 4);
-  EXPECT_EQ(panache_skeleton_find(mapped, "leftHand"), 7);
-  EXPECT_EQ(panache_skeleton_find(mapped, "leftToes"), -1);
-  EXPECT_EQ(panache_skeleton_find(mapped, "leftUpperLeg"), 11);
-  panache_skeleton_destroy(mapped);
+  for (panache_joint& joint : joints_) joint.name = "joint";
+  expect_finds({{"head", 4}, {"leftToes", -1}, {"leftHand", 7}, {"rightHand", 10}},
+               {{"head", 4}, {"leftHand", 7}, {"leftToes", -1}, {"leftUpperLeg", 11}});
 }
 
 TEST_F(JointMap, goes_before_the_names_of_the_joints) {
-  const std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
-  panache_skeleton* mapped = nullptr;
-  ASSERT_EQ(create(joints, {{"neck", -1}}, &mapped), PANACHE_OK) << panache_last_error();
-  EXPECT_EQ(panache_skeleton_find(skeleton_, "neck"), 3);
-  EXPECT_EQ(panache_skeleton_find(mapped, "neck"), -1);
-  panache_skeleton_destroy(mapped);
+  EXPECT_EQ(panache_skeleton_find(skeleton_.get(), "neck"), 3);
+  expect_finds({{"neck", -1}}, {{"neck", -1}});
 }
 
 TEST_F(JointMap, may_say_all_there_is) {
-  const std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
-  std::vector<panache_human_joint> whole;
+  Map whole;
   for (const char* name :
        {"hips",          "spine",         "chest",         "neck",          "head",
         "leftShoulder",  "leftUpperArm",  "leftLowerArm",  "leftHand",      "rightShoulder",
         "rightUpperArm", "rightLowerArm", "rightHand",     "leftUpperLeg",  "leftLowerLeg",
         "leftFoot",      "leftToes",      "rightUpperLeg", "rightLowerLeg", "rightFoot",
         "rightToes"}) {
-    whole.push_back({name, panache_skeleton_find(skeleton_, name)});
+    whole.push_back({name, panache_skeleton_find(skeleton_.get(), name)});
   }
-  panache_skeleton* mapped = nullptr;
-  ASSERT_EQ(create(joints, whole, &mapped), PANACHE_OK) << panache_last_error();
-  for (const panache_human_joint& joint : whole) {
-    EXPECT_EQ(panache_skeleton_find(mapped, joint.vrm_name), joint.joint) << joint.vrm_name;
-  }
-  panache_skeleton_destroy(mapped);
+  expect_finds(whole, whole);
 }
 
 TEST_F(JointMap, that_is_wrong_is_rejected_with_its_entry) {
-  const std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
-  const auto rejection = [&](const std::vector<panache_human_joint>& map) {
-    panache_skeleton* none = skeleton_;
-    EXPECT_EQ(create(joints, map, &none), PANACHE_BAD_ARGUMENT);
-    EXPECT_EQ(none, nullptr);
-    return std::string(panache_last_error());
+  const auto message = [&](const Map& map, int32_t count) {
+    return rejection<panache_skeleton>(PANACHE_BAD_ARGUMENT, create(map, count));
   };
-  EXPECT_EQ(rejection({{"head", 4}, {"tail", 3}}),
-            "human joint 1: there is no human joint 'tail' that a style turns");
-  EXPECT_EQ(rejection({{nullptr, 3}}),
-            "human joint 0: there is no human joint '' that a style turns");
-  EXPECT_EQ(rejection({{"head", 19}}), "human joint 0 'head': joint is 19; expected -1 to 18");
-  EXPECT_EQ(rejection({{"head", -2}}), "human joint 0 'head': joint is -2; expected -1 to 18");
-  EXPECT_EQ(rejection({{"head", 4}, {"head", 3}}), "human joint 1 'head': is listed twice");
-  EXPECT_EQ(rejection(std::vector<panache_human_joint>(22, {"head", 4})),
-            "22 human joints; expected an array of 0 to 21");
-  panache_skeleton_options options = PANACHE_SKELETON_OPTIONS;
+  const struct {
+    Map map;
+    const char* message;
+  } kRows[] = {
+      {{{"head", 4}, {"tail", 3}},
+       "human joint 1: there is no human joint 'tail' that a style turns"},
+      {{{nullptr, 3}}, "human joint 0: there is no human joint '' that a style turns"},
+      {{{"head", 19}}, "human joint 0 'head': joint is 19; expected -1 to 18"},
+      {{{"head", -2}}, "human joint 0 'head': joint is -2; expected -1 to 18"},
+      {{{"head", 4}, {"head", 3}}, "human joint 1 'head': is listed twice"},
+      {Map(22, {"head", 4}), "22 human joints; expected an array of 0 to 21"},
+  };
+  for (const auto& row : kRows) {
+    EXPECT_EQ(message(row.map, static_cast<int32_t>(row.map.size())), row.message);
+  }
   for (const int32_t count : {-1, 1}) {
-    options.human_joint_count = count;
-    panache_skeleton* none = nullptr;
-    EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &options, &none),
-              PANACHE_BAD_ARGUMENT);
-    EXPECT_EQ(panache_last_error(),
+    EXPECT_EQ(message({}, count),
               std::to_string(count) + " human joints; expected an array of 0 to 21");
   }
 }
