@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rig/file_space.h"
+#include "rig/figures.h"
 #include "rig/rig_checks.h"
 
 namespace panache {
