@@ -5,7 +5,6 @@
 #include "make_clip.h"
 #include "pose/changed_joints.h"
 #include "rig/posed_rig.h"
-#include "style/stages/lean.h"
 
 namespace panache {
 namespace {
@@ -227,43 +226,6 @@ TEST_F(AnatomyTest, a_limit_comes_and_goes_gradually) {
   EXPECT_GT(last, 0.4f * at_first) << "after 0.2 s";
   for (int i = 0; i < 100; ++i) last = taken_back();
   EXPECT_LT(last, 0.1f);
-}
-
-TEST_F(AnatomyTest, a_lean_stops_before_the_body_falls) {
-  const auto moved = [&](const BodyChange& change) {
-    HumanPositions joints, before;
-    changed_joints(body_, change, joints);
-    changed_joints(body_, {}, before);
-    Vec3 centre, feet;
-    for (int j = 0; j < kHumanJoints; ++j) centre += (joints[j] - before[j]) / 21.0f;
-    for (const HumanJoint j : {left_foot, left_toes, right_foot, right_toes}) {
-      feet += (joints[index(j)] - before[index(j)]) / 4.0f;
-    }
-    return std::hypot(centre.x - feet.x, centre.z - feet.z);
-  };
-  for (int degrees = 0; degrees <= 75; degrees += 5) {
-    const Quat lean = axis_angle(kLeft, static_cast<float>(degrees) * kDegree);
-    BodyChange change = turned(hips, right_hand, lean);
-    const BodyChange asked = change;
-    HumanPositions joints;
-    changed_joints(body_, change, joints);
-    keep_balance(body_, 1, joints, change);
-    EXPECT_LE(moved(change), moved(asked) + 1e-6f) << degrees;  // Rounding.
-    EXPECT_LT(moved(change), 0.135f) << degrees;
-    // The upper body turns as one.
-    const Quat turn = change.rotations[0] * conjugate(asked.rotations[0]);
-    for (int j = index(hips); j <= index(right_hand); ++j) {
-      const Quat wanted = turn * asked.rotations[j];
-      EXPECT_NEAR(std::abs(dot(change.rotations[j], wanted)), 1, 1e-6f) << human_joint_name(j);
-    }
-    EXPECT_EQ(change.rotations[index(left_upper_leg)], Quat{});
-    if (moved(asked) < 0.08f) {
-      EXPECT_EQ(change.rotations, asked.rotations) << degrees;
-    }
-    HumanPositions kept_up;
-    changed_joints(body_, change, kept_up);
-    EXPECT_EQ(joints, kept_up);
-  }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "rig/put_on.h"
 #include "rig/rig_checks.h"
 #include "style/restyle.h"
-#include "walker/walker.h"
+#include "style_checks.h"
 
 namespace panache {
 namespace {
@@ -20,19 +20,12 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-std::string models() { return PANACHE_SOURCE_DIR "/models/"; }
-
-std::shared_ptr<const Model> shipped_model() {
-  static const std::shared_ptr<const Model> model = *Model::load(models() + "panache.safetensors");
-  return model;
-}
-
 Clip walk() {
   WalkClipOptions options;
   options.seconds = 4;
   options.fps = 30;
   options.turn = 0.3f;
-  return walk_clip(*WalkerModel::load(models() + "walker.safetensors"), options);
+  return walk_clip(*WalkerModel::load(PANACHE_SOURCE_DIR "/models/walker.safetensors"), options);
 }
 
 // A clip's motion on the canonical skeleton.

@@ -7,6 +7,7 @@
 #include "odd_files.h"
 #include "rig/posed_rig.h"
 #include "style/restyle.h"
+#include "style_checks.h"
 
 namespace panache {
 namespace {
@@ -14,12 +15,6 @@ namespace {
 using namespace test;
 
 constexpr float kSlope = 0.3f;
-
-std::shared_ptr<const Model> shipped() {
-  static const std::shared_ptr<const Model> model =
-      *Model::load(PANACHE_SOURCE_DIR "/models/panache.safetensors");
-  return model;
-}
 
 // The fixture, or the same walk down or on the level.
 Clip walk_on(float slope) {
@@ -50,11 +45,11 @@ Path path_of(const Clip& clip, float slope) {
 }
 
 TEST(Climb, path_and_climb_change_together) {
-  const int old = *shipped()->find_style("old");
+  const int old = *shipped_model()->find_style("old");
   for (const float slope : {kSlope, -kSlope}) {
     const Clip clip = walk_on(slope);
     const Rig rig = *Rig::create(clip);
-    const auto styled = restyle(clip, rig, shipped(), {{old, {{0, 1}}}});
+    const auto styled = restyle(clip, rig, shipped_model(), {{old, {{0, 1}}}});
     ASSERT_TRUE(styled.ok()) << styled.error().message;
     const Path before = path_of(clip, slope), after = path_of(styled->clip, slope);
     // The style shortens this walk by a quarter; without its climb the slope would be a third off.
@@ -70,8 +65,8 @@ TEST(Climb, a_path_that_is_held_back_keeps_the_ground_of_the_input) {
   RestyleOptions options;
   options.timing = false;
   options.stylizer.shape.regions[static_cast<size_t>(Region::legs)] = 0;
-  const auto styled =
-      restyle(clip, rig, shipped(), {{*shipped()->find_style("old"), {{0, 1}}}}, options);
+  const auto styled = restyle(clip, rig, shipped_model(),
+                              {{*shipped_model()->find_style("old"), {{0, 1}}}}, options);
   ASSERT_TRUE(styled.ok()) << styled.error().message;
   const Path before = path_of(clip, kSlope), after = path_of(styled->clip, kSlope);
   EXPECT_NEAR(after.along, before.along, 0.05f);

@@ -11,6 +11,7 @@
 #include "allocations.h"
 #include "make_clip.h"
 #include "make_model.h"
+#include "style_checks.h"
 #include "net/layer.h"
 #include "style/model/person.h"
 
@@ -35,7 +36,7 @@ std::shared_ptr<const Model> make_model(Kind kind) {
     test::add_persons(file);
   }
   if (kind == Kind::bytes || kind == Kind::rich_bytes) file = quantize(file);
-  return *Model::parse(format_safetensors(file), "test model");
+  return read(file);
 }
 
 // A character with a motion of its own, and where its styled poses go.

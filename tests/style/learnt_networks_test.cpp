@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "make_model.h"
-#include "read_model.h"
 #include "style/networks/networks.h"
+#include "style_checks.h"
 
 namespace panache {
 namespace {
@@ -61,7 +61,7 @@ TEST(LearntNetworks, the_head_answers_to_the_features_of_all_layers) {
   EXPECT_TRUE(model->styles()[1].learnt);
   EXPECT_EQ(model->styles()[1].origin, "a test");
   StyleNetworks networks(model);
-  const std::vector<float> window = window_of(1);
+  const std::vector<float> window = window_of(1, 1);
   std::vector<float> activations(model->activation_count());
   ASSERT_EQ(activations.size(), 32u);  // Two layers of 16.
   networks.activations(window, activations);
@@ -82,7 +82,7 @@ TEST(LearntNetworks, features_are_those_of_the_layers_one_after_another) {
   const TensorFile file = with_learnt();
   const auto model = read(file);
   const StyleNetworks networks(model);
-  const std::vector<float> window = window_of(2);
+  const std::vector<float> window = window_of(1, 2);
   std::vector<float> activations(model->activation_count());
   networks.activations(window, activations);
   // The second layer by hand, from the first.
@@ -98,7 +98,7 @@ TEST(LearntNetworks, features_are_those_of_the_layers_one_after_another) {
 TEST(LearntNetworks, styles_add_up_and_are_exaggerated_like_others) {
   const auto model = read(with_learnt());
   StyleNetworks networks(model);
-  const std::vector<float> window = window_of(1);
+  const std::vector<float> window = window_of(1, 1);
   const Answer old = answer(networks, window, {1, 0}), drunk = answer(networks, window, {0, 1});
   const Answer both = answer(networks, window, {0.3f, 0.6f});
   const Answer two_old = answer(networks, window, {2, 0}), two = answer(networks, window, {0, 2});
@@ -112,7 +112,7 @@ TEST(LearntNetworks, styles_add_up_and_are_exaggerated_like_others) {
 TEST(LearntNetworks, beyond_its_gate_a_style_is_drawn_to_its_mean_answer) {
   const TensorFile open_file = with_learnt();
   StyleNetworks open(read(open_file));
-  const std::vector<float> window = window_of(1);
+  const std::vector<float> window = window_of(1, 1);
   const std::vector<double> mean = head(open_file, open_file.tensors.at("learnt.0.mean").values);
   const Answer whole = answer(open, window, {0, 1});
   const float scale = open.model().output_scale()[0];
@@ -143,7 +143,7 @@ TEST(LearntNetworks, the_gate_is_the_mean_of_those_in_force_and_moves_by_its_sha
   TensorFile file = with_learnt(1e9f);
   test::add_gate(file, 1e9f);  // The built-in style knows everything.
   StyleNetworks networks(read(file));
-  const std::vector<float> window = window_of(1);
+  const std::vector<float> window = window_of(1, 1);
   EXPECT_NEAR(answer(networks, window, {0.75f, 0.25f}).gate, 0.75, 1e-4);
   EXPECT_EQ(answer(networks, window, {1, 0}).gate, 1);
   StyleNetworks eased(read(file));
@@ -161,44 +161,41 @@ TEST(LearntNetworks, a_model_may_have_learnt_styles_only) {
     for (const char* part : {".weight", ".bias"}) file.tensors.erase(std::string(key) + part);
   }
   StyleNetworks only(read(file)), both(read(with_learnt()));
-  const std::vector<float> window = window_of(1);
+  const std::vector<float> window = window_of(1, 1);
   EXPECT_EQ(answer(only, window, {1}).pose, answer(both, window, {0, 1}).pose);
   EXPECT_EQ(answer(only, window, {1}).left, answer(both, window, {0, 1}).left);
 }
 
 TEST(LearntNetworks, damaged_ones_are_rejected) {
-  TensorFile file = with_learnt();
-  file.tensors.erase("learn.mean");
-  file.tensors.erase("learn.scale");
-  EXPECT_EQ(failure(file),
+  const auto message = [](auto&& damage) {
+    TensorFile file = with_learnt();
+    damage(file);
+    return failure(file);
+  };
+  for (const char* part :
+       {"learn.mean", "learn.scale", "learnt.0.head.bias", "learnt.0.mean", "learnt.0.gate.weight",
+        "learnt.0.gate.bias", "learnt.0.gate.worth", "learnt.0.gate.rest"}) {
+    EXPECT_EQ(message([&](TensorFile& file) { file.tensors.erase(part); }),
+              "m.safetensors: tensor '" + std::string(part) + "' is missing");
+  }
+  EXPECT_EQ(message([](TensorFile& file) {
+              file.tensors.erase("learn.mean");
+              file.tensors.erase("learn.scale");
+            }),
             "m.safetensors: has tensors 'learnt.0.*' of a learnt style, but no 'learn.mean' and "
             "'learn.scale'");
-  for (const char* missing : {"learn.mean", "learn.scale"}) {
-    file = with_learnt();
-    file.tensors.erase(missing);
-    EXPECT_EQ(failure(file), "m.safetensors: tensor '" + std::string(missing) + "' is missing");
-  }
-  for (const char* part :
-       {"head.bias", "mean", "gate.weight", "gate.bias", "gate.worth", "gate.rest"}) {
-    file = with_learnt();
-    file.tensors.erase("learnt.0." + std::string(part));
-    EXPECT_EQ(failure(file),
-              "m.safetensors: tensor 'learnt.0." + std::string(part) + "' is missing");
-  }
-  file = with_learnt();
-  file.tensors["learn.scale"].values[3] = 0;
-  EXPECT_EQ(failure(file), "m.safetensors: tensor 'learn.scale' must be above zero throughout");
-  file = with_learnt();
-  file.tensors["learnt.0.head.weight"].shape = {31, kLearntOutputs};
-  file.tensors["learnt.0.head.weight"].values.resize(size_t{31} * kLearntOutputs);
-  EXPECT_EQ(failure(file),
+  EXPECT_EQ(message([](TensorFile& file) { file.tensors["learn.scale"].values[3] = 0; }),
+            "m.safetensors: tensor 'learn.scale' must be above zero throughout");
+  EXPECT_EQ(message([](TensorFile& file) {
+              file.tensors["learnt.0.head.weight"].shape = {31, kLearntOutputs};
+              file.tensors["learnt.0.head.weight"].values.resize(size_t{31} * kLearntOutputs);
+            }),
             "m.safetensors: tensor 'learnt.0.head.weight' has shape [31, 70]; expected [32, 70]");
-  file = with_learnt();
-  file.metadata["styles"] = "";
-  EXPECT_NE(failure(file), "");
-  test::add_learnt(file = with_learnt(), 1, "x", "");
-  file.metadata["styles"] = "drunk\n";
-  EXPECT_EQ(failure(file),
+  EXPECT_NE(message([](TensorFile& file) { file.metadata["styles"] = ""; }), "");
+  EXPECT_EQ(message([](TensorFile& file) {
+              test::add_learnt(file, 1, "x", "");
+              file.metadata["styles"] = "drunk\n";
+            }),
             "m.safetensors: has 2 learnt styles and lists 1 in all; expected a model written by "
             "panache");
 }

@@ -9,23 +9,12 @@
 #include "make_model.h"
 #include "net/layer.h"
 #include "style/networks/networks.h"
+#include "style_checks.h"
 
 namespace panache {
 namespace {
 
 constexpr int kHidden = 16;  // Of the pose trunk of made models.
-
-std::shared_ptr<const Model> read(const TensorFile& file) {
-  return *Model::parse(format_safetensors(file), "m.safetensors");
-}
-
-// A window of random numbers, this many deviations large.
-std::vector<float> window_of(float size, uint64_t seed = 5) {
-  std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
-  Random random(seed);
-  for (float& w : window) w = size * random.normal();
-  return window;
-}
 
 std::vector<float> answer(StyleNetworks& networks, const std::vector<float>& window,
                           const std::vector<float>& strengths) {

@@ -2,16 +2,14 @@
 // as if nothing had been.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "rig/canonical_body.h"
 #include "style/live_stylizer.h"
 #include "style/stylizer.h"
-#include "walker/walker.h"
+#include "style_checks.h"
 
 namespace panache {
 namespace {
@@ -22,14 +20,6 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 class OddSteps : public testing::Test {
  protected:
   OddSteps() {
-    auto walker = *WalkerModel::load(std::string(PANACHE_SOURCE_DIR "/models/walker.safetensors"));
-    Walker walk(walker);
-    walk_.skeleton = canonical_skeleton();
-    walk_.frame_time = kStepSeconds;
-    walk_.resize(kFrames);
-    for (int f = 0; f < kFrames; ++f) walk.step(1.3f, 0.2f, kStepSeconds, walk_.pose(f));
-    model_ = *Model::load(std::string(PANACHE_SOURCE_DIR "/models/panache.safetensors"));
-    strengths_.resize(model_->styles().size());
     // A slow one, which lags.
     strengths_[static_cast<size_t>(*model_->find_style("moping"))] = 1;
   }
@@ -64,10 +54,6 @@ class OddSteps : public testing::Test {
   Clip play(LiveStylizer& character, double seconds) const {
     return play(character, seconds, [](Pose, auto&, LiveStylizer&) {});
   }
-  static bool same_rotations(const Clip& a, const Clip& b) {
-    return std::memcmp(a.rotations.data(), b.rotations.data(), a.rotations.size() * sizeof(Quat)) ==
-           0;
-  }
   // How far apart the joints below the root are at most from a frame on, degrees.
   static float apart(const Clip& a, const Clip& b, int from) {
     float max = 0;
@@ -81,9 +67,9 @@ class OddSteps : public testing::Test {
   }
 
   static constexpr int kOdd = 120, kFrames = kOdd + 320;
-  Clip walk_;
-  std::shared_ptr<const Model> model_;
-  std::vector<float> strengths_;
+  Clip walk_ = walker_walk(kFrames);
+  std::shared_ptr<const Model> model_ = shipped_model();
+  std::vector<float> strengths_ = std::vector<float>(model_->styles().size());
 };
 
 TEST_F(OddSteps, a_pause_without_end_is_forgotten_like_any_pause) {
@@ -96,7 +82,7 @@ TEST_F(OddSteps, a_pause_without_end_is_forgotten_like_any_pause) {
     for (const double seconds : {1e5, 1e9, 1e18, 1e30, 1e308, kInfinity}) {
       LiveStylizer odd = character(options);
       const Clip out = play(odd, seconds);
-      EXPECT_TRUE(same_rotations(out, hour))
+      EXPECT_TRUE(out.rotations == hour.rotations)
           << seconds << ": " << apart(out, hour, kOdd + 200) << " degrees off after 3.3 s";
       EXPECT_EQ(odd.ahead(), after_an_hour.ahead()) << seconds;
     }
@@ -110,7 +96,7 @@ TEST_F(OddSteps, a_clock_that_stands_still_or_goes_back_stands_still) {
     for (const double seconds : {-0.0, -1.0, -1e30, -kInfinity, kNan, 5e-324, 1e-310, 1e-40}) {
       LiveStylizer odd = character(options);
       const Clip out = play(odd, seconds);
-      EXPECT_TRUE(same_rotations(out, expected))
+      EXPECT_TRUE(out.rotations == expected.rotations)
           << seconds << ": " << apart(out, expected, kOdd) << " degrees off";
       EXPECT_EQ(odd.ahead(), still.ahead()) << seconds;
     }
@@ -127,7 +113,7 @@ TEST_F(OddSteps, a_crowd_takes_the_same_seconds_as_one_alone) {
           {&member.stylizer(), std::as_const(walk_).pose(f), strengths_, out.pose(f)}};
       step_crowd(crowd, f == kOdd ? seconds : kStepSeconds);
     }
-    EXPECT_TRUE(same_rotations(out, expected)) << seconds;
+    EXPECT_TRUE(out.rotations == expected.rotations) << seconds;
   }
 }
 
@@ -188,8 +174,8 @@ TEST_F(OddSteps, a_body_on_a_vehicle_keeps_its_style_where_the_limit_allows_its_
   for (const LiveOptions& options : option_sets()) {
     for (const float speed : {0.0f, 10.0f, 40.0f, 80.0f}) {
       const Clip free = ride(speed, infinity, options);
-      EXPECT_TRUE(same_rotations(free, ride(speed, 100, options))) << speed;
-      EXPECT_EQ(same_rotations(free, ride(speed, 15, options)), speed < 15) << speed;
+      EXPECT_TRUE(free.rotations == ride(speed, 100, options).rotations) << speed;
+      EXPECT_EQ(free.rotations == ride(speed, 15, options).rotations, speed < 15) << speed;
     }
   }
   LiveOptions none;

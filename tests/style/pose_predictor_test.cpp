@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/random.h"
 #include "make_model.h"
+#include "style_checks.h"
 
 namespace panache {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kPoseStep = 1.0 / 60;
 std::shared_ptr<const Model> predicting_model(float size) {
   TensorFile file = test::make_model({"old"});
   test::add_predictor(file, size);
-  return *Model::parse(format_safetensors(file), "test model");
+  return read(file);
 }
 
 // A body whose joints all are at `height` and whose ground is at `distance` along z.
@@ -120,8 +120,7 @@ TEST(PredictorNetwork, a_file_that_lacks_a_part_is_rejected_with_a_message) {
     } else {
       file.tensors[key] = std::move(tensor);
     }
-    const auto model = Model::parse(format_safetensors(file), "m.safetensors");
-    return model.ok() ? "accepted" : model.error().message;
+    return failure(file);
   };
   EXPECT_EQ(rejection("predict.mean", {}), "m.safetensors: tensor 'predict.mean' is missing");
   EXPECT_EQ(rejection("predict.linear", test::constant_tensor(5, 0)),

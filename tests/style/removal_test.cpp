@@ -8,22 +8,17 @@
 #include "style/live_stylizer.h"
 #include "style/model/model.h"
 #include "style/play/removal.h"
+#include "style_checks.h"
 
 namespace panache {
 namespace {
-
-std::shared_ptr<const Model> made(TensorFile file) {
-  Result<std::shared_ptr<const Model>> model = Model::parse(format_safetensors(file), "test model");
-  EXPECT_TRUE(model.ok()) << (model ? "" : model.error().message);
-  return *model;
-}
 
 // Takes "old" off, whatever that is, and plays at this rate.
 std::shared_ptr<const Model> remover(double rate = 1) {
   TensorFile file = test::make_model({"old", kAnyStyle}, 5);
   file.metadata[kDirection] = kRemove;
   test::set_rate(file, rate);
-  return made(std::move(file));
+  return read(file);
 }
 
 class RemovalTest : public testing::Test {
@@ -34,7 +29,7 @@ class RemovalTest : public testing::Test {
   }
   const Clip clip_ = test::walking_clip(120);
   const Rig rig_ = *Rig::create(clip_);
-  const std::shared_ptr<const Model> model_ = made(test::make_model({"old", "proud"}, 3));
+  const std::shared_ptr<const Model> model_ = read(test::make_model({"old", "proud"}, 3));
 };
 
 TEST_F(RemovalTest, a_model_that_puts_styles_on_removes_none) {
@@ -76,14 +71,19 @@ TEST_F(RemovalTest, a_style_is_put_on_what_is_left) {
   EXPECT_EQ(both.clip.translations, twice.clip.translations);
 }
 
-TEST_F(RemovalTest, the_tempo_is_undone_and_source_frames_are_those_of_the_clip) {
+// Every tempo is played, from end to end.
+const RestyleOptions kOwnTempo = [] {
   RestyleOptions options;
   options.stylizer.tempo_everywhere = true;
   options.loop = LoopMode::off;
+  return options;
+}();
+
+TEST_F(RemovalTest, the_tempo_is_undone_and_source_frames_are_those_of_the_clip) {
   const auto off = remover(0.5);
-  const Restyled once = must(restyle(clip_, rig_, off, {{0, {{0, 1}}}}, options));
+  const Restyled once = must(restyle(clip_, rig_, off, {{0, {{0, 1}}}}, kOwnTempo));
   const Restyled both =
-      must(restyle_without(clip_, rig_, {off, 0}, model_, {{1, {{0, 1}}}}, options));
+      must(restyle_without(clip_, rig_, {off, 0}, model_, {{1, {{0, 1}}}}, kOwnTempo));
   EXPECT_GT(once.clip.frames, clip_.frames * 3 / 2);
   for (const double source : both.source_frames) {
     EXPECT_GE(source, 0);
@@ -93,15 +93,12 @@ TEST_F(RemovalTest, the_tempo_is_undone_and_source_frames_are_those_of_the_clip)
 }
 
 TEST_F(RemovalTest, a_strength_keeps_its_place_in_the_clip) {
-  RestyleOptions options;
-  options.stylizer.tempo_everywhere = true;
-  options.loop = LoopMode::off;
   const double end = (clip_.frames - 1) * clip_.frame_time;
   const auto off = remover(0.5);
-  const Restyled once = must(restyle(clip_, rig_, off, {{0, {{0, 1}}}}, options));
+  const Restyled once = must(restyle(clip_, rig_, off, {{0, {{0, 1}}}}, kOwnTempo));
   // The style begins in the last quarter of the clip: nothing changes before.
   const Restyled both = must(restyle_without(clip_, rig_, {off, 0}, model_,
-                                             {{1, {{0.75 * end, 0}, {0.8 * end, 1}}}}, options));
+                                             {{1, {{0.75 * end, 0}, {0.8 * end, 1}}}}, kOwnTempo));
   const int quiet = once.clip.frames / 2;
   for (int f = 0; f < quiet; ++f) {
     for (size_t j = 0; j < clip_.joints(); ++j) {
@@ -141,19 +138,6 @@ TEST_F(RemovalTest, live_what_is_removed_can_be_switched_and_is_part_of_the_stat
   EXPECT_FALSE(other->restore(state));
 }
 
-TEST_F(RemovalTest, live_a_remover_is_no_other_model) {
-  LiveOptions options;
-  options.remover = model_;
-  EXPECT_FALSE(LiveStylizer::create(model_, rig_, options).ok());
-}
-
-// Takes "old" off, whatever that is.
-std::shared_ptr<const Model> remover_of_old() {
-  TensorFile file = test::make_model({"old", kAnyStyle}, 5);
-  file.metadata[kDirection] = kRemove;
-  return Model::parse(format_safetensors(file), "test model").value();
-}
-
 class RemovalPassTest : public testing::Test {
  protected:
   RemovalPass pass(StylizerOptions options = {}) const {
@@ -177,7 +161,7 @@ class RemovalPassTest : public testing::Test {
   static constexpr double kSeconds = 1.0 / 30;
   const Clip clip_ = test::walking_clip(90);
   const Rig rig_ = *Rig::create(clip_);
-  const std::shared_ptr<const Model> remover_ = remover_of_old();
+  const std::shared_ptr<const Model> remover_ = remover();
 };
 
 TEST_F(RemovalPassTest, takes_nothing_off_until_it_is_told_to) {
@@ -230,10 +214,11 @@ TEST_F(RemovalPassTest, goes_on_from_a_saved_state_and_begins_anew_after_a_reset
 }
 
 TEST_F(RemovalPassTest, takes_no_model_that_puts_styles_on) {
-  const auto model = Model::parse(format_safetensors(test::make_model({"old"}, 3)), "m").value();
-  const Result<RemovalPass> pass = RemovalPass::create(model, rig_, {});
-  ASSERT_FALSE(pass.ok());
-  EXPECT_EQ(pass.error().message, "the model puts styles on; expected one that takes them off");
+  LiveOptions options;
+  options.remover = read(test::make_model({"old"}, 3));
+  const auto live = LiveStylizer::create(options.remover, rig_, options);
+  ASSERT_FALSE(live.ok());
+  EXPECT_EQ(live.error().message, "the model puts styles on; expected one that takes them off");
 }
 
 }  // namespace

@@ -14,26 +14,22 @@
 #include "pose/observer.h"
 #include "rig/put_on.h"
 #include "style/restyle.h"
+#include "style_checks.h"
 
 namespace panache {
 namespace {
 
 using namespace test;
 
-std::shared_ptr<const Model> shipped() {
-  static const auto model = *Model::load(PANACHE_SOURCE_DIR "/models/panache.safetensors");
-  return model;
-}
-
 StrengthTrack track(const std::string& style, float strength = 1) {
-  return {*shipped()->find_style(style), {{0, strength}}};
+  return {*shipped_model()->find_style(style), {{0, strength}}};
 }
 
 Restyled styled(const Clip& clip, const StrengthTrack& wanted, LoopMode mode, bool timing = true) {
   RestyleOptions options;
   options.loop = mode;
   options.timing = timing;
-  return *restyle(clip, *Rig::create(clip), shipped(), {wanted}, options);
+  return *restyle(clip, *Rig::create(clip), shipped_model(), {wanted}, options);
 }
 
 LoopSeam seam_of(const Clip& clip) { return measure_seam(clip, *Rig::create(clip)); }
@@ -42,18 +38,18 @@ TEST(RestyleLoop, a_loop_stays_a_loop_in_every_style) {
   const Clip cycle = walk_cycle();
   ASSERT_TRUE(is_loop(seam_of(cycle), cycle.frame_time));
   int open_ones = 0;
-  for (size_t s = 0; s < shipped()->styles().size(); ++s) {
+  for (size_t s = 0; s < shipped_model()->styles().size(); ++s) {
     const StrengthTrack wanted = {static_cast<int>(s), {{0, 1}}};
     open_ones += seam_of(styled(cycle, wanted, LoopMode::off, false).clip).gap > 0.01f;
     for (const bool timing : {false, true}) {
       const Restyled result = styled(cycle, wanted, LoopMode::detect, timing);
       EXPECT_TRUE(result.loop.closed);
-      EXPECT_TRUE(result.loop.settled) << shipped()->styles()[s].name;
+      EXPECT_TRUE(result.loop.settled) << shipped_model()->styles()[s].name;
       // Before the rest is spread: the target of 5 mm, and a quarter of the mean.
-      EXPECT_LT(result.loop.spread, 0.005f) << shipped()->styles()[s].name;
+      EXPECT_LT(result.loop.spread, 0.005f) << shipped_model()->styles()[s].name;
       const LoopSeam seam = seam_of(result.clip);
-      EXPECT_LT(seam.gap, 1e-4f) << shipped()->styles()[s].name;
-      EXPECT_LT(seam.worst, 1e-4f) << shipped()->styles()[s].name;
+      EXPECT_LT(seam.gap, 1e-4f) << shipped_model()->styles()[s].name;
+      EXPECT_LT(seam.worst, 1e-4f) << shipped_model()->styles()[s].name;
     }
   }
   EXPECT_GT(open_ones, 45);  // Otherwise there would be nothing to close.
@@ -148,7 +144,7 @@ TEST(RestyleLoop, a_loop_is_what_a_long_walk_comes_to) {
   const Rig rig = *Rig::create(cycle), long_rig = *Rig::create(walk_on);
   PosedRig reader(rig), long_reader(long_rig);
   double slide = 0, long_slide = 0, apart = 0;
-  for (size_t s = 0; s < shipped()->styles().size(); ++s) {
+  for (size_t s = 0; s < shipped_model()->styles().size(); ++s) {
     const StrengthTrack wanted = {static_cast<int>(s), {{0, 1}}};
     const Restyled loop = styled(cycle, wanted, LoopMode::detect, false);
     const Restyled ninth =
@@ -164,8 +160,8 @@ TEST(RestyleLoop, a_loop_is_what_a_long_walk_comes_to) {
       }
     }
   }
-  apart /= static_cast<double>(shipped()->styles().size() * static_cast<size_t>(cycle.frames) *
-                               kHumanJoints);
+  apart /= static_cast<double>(shipped_model()->styles().size() *
+                               static_cast<size_t>(cycle.frames) * kHumanJoints);
   // A frame of such a walk is 9 mm, and neither begins at the same moment of it.
   EXPECT_LT(apart, 0.009);
   EXPECT_LT(slide, 1.03 * long_slide);
@@ -209,7 +205,7 @@ TEST(RestyleLoop, loops_of_a_game_and_cycles_of_people_stay_loops) {
     EXPECT_TRUE(is_loop(seam_of(loops.back()), loops.back().frame_time)) << name;
   }
   for (const Clip& loop : loops) {
-    for (size_t s = 0; s < shipped()->styles().size(); s += 9) {
+    for (size_t s = 0; s < shipped_model()->styles().size(); s += 9) {
       const Restyled result =
           styled(loop, {static_cast<int>(s), {{0, 1}}}, LoopMode::detect, false);
       EXPECT_TRUE(result.loop.closed);
@@ -229,7 +225,7 @@ TEST(RestyleLoop, strength_zero_keeps_every_bit) {
   RestyleOptions nothing;
   nothing.stylizer.shape.strength = 0;
   EXPECT_TRUE(is_unchanged(
-      cycle, *restyle(cycle, *Rig::create(cycle), shipped(), {track("old")}, nothing)));
+      cycle, *restyle(cycle, *Rig::create(cycle), shipped_model(), {track("old")}, nothing)));
 }
 
 TEST(RestyleLoop, what_is_no_loop_keeps_its_bits) {
@@ -254,7 +250,7 @@ TEST(RestyleLoop, what_cannot_be_a_loop_says_why) {
   const auto message = [](const Clip& clip, const StrengthTrack& wanted) {
     RestyleOptions options;
     options.loop = LoopMode::force;
-    const auto result = restyle(clip, *Rig::create(clip), shipped(), {wanted}, options);
+    const auto result = restyle(clip, *Rig::create(clip), shipped_model(), {wanted}, options);
     return result ? std::string() : result.error().message;
   };
   EXPECT_TRUE(message(walking_clip(39), track("old"))
@@ -298,7 +294,7 @@ TEST(RestyleFacts, tell_what_was_done) {
   RestyleOptions free;
   free.stylizer.foot_lock = false;
   const RestyleFacts slides =
-      restyle_facts(cycle, rig, *restyle(cycle, rig, shipped(), {track("zombie")}, free));
+      restyle_facts(cycle, rig, *restyle(cycle, rig, shipped_model(), {track("zombie")}, free));
   EXPECT_GT(slides.slide, 2 * loop.slide);
   EXPECT_TRUE(
       restyle_facts(cycle, rig, styled(cycle, track("old", 0), LoopMode::detect)).unchanged);

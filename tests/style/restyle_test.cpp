@@ -9,6 +9,7 @@
 #include "clip/motion_file.h"
 #include "make_clip.h"
 #include "make_model.h"
+#include "style_checks.h"
 
 namespace panache {
 namespace {
@@ -18,7 +19,7 @@ std::shared_ptr<const Model> model_with_rate(float log_rate) {
   Tensor& weight = file.tensors["timing.head.0.weight"];
   std::fill(weight.values.begin(), weight.values.end(), 0.0f);
   file.tensors["timing.head.0.bias"].values = {log_rate};
-  return *Model::parse(format_safetensors(file), "test model");
+  return read(file);
 }
 
 Restyled restyle_with(float log_rate, float strength, const RestyleOptions& options = {}) {
@@ -59,7 +60,7 @@ TEST(Restyle, every_frame_tells_how_far_its_motion_was_trusted) {
   const Clip clip = test::walking_clip(60);
   TensorFile file = test::make_model({"old"});
   const auto gates = [&] {
-    const auto model = *Model::parse(format_safetensors(file), "test model");
+    const auto model = read(file);
     const Restyled result = *restyle(clip, *Rig::create(clip), model, {{0, {{0, 1.0f}}}});
     EXPECT_EQ(result.gates.size(), static_cast<size_t>(result.clip.frames));
     return result.gates;

@@ -8,10 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "make_clip.h"
-#include "rig/canonical_body.h"
 #include "style/live_stylizer.h"
 #include "style/model/person.h"
-#include "walker/walker.h"
+#include "style_checks.h"
 
 namespace panache {
 namespace {
@@ -27,17 +26,7 @@ constexpr double kFrameSeconds = 1.0 / 60;
 
 class SavedState : public testing::Test {
  protected:
-  SavedState() {
-    auto walker = *WalkerModel::load(std::string(PANACHE_SOURCE_DIR "/models/walker.safetensors"));
-    Walker walk(walker);
-    walk_.skeleton = canonical_skeleton();
-    walk_.frame_time = kFrameSeconds;
-    walk_.resize(400);
-    for (int f = 0; f < walk_.frames; ++f) walk.step(1.3f, 0.2f, kFrameSeconds, walk_.pose(f));
-    model_ = *Model::load(std::string(PANACHE_SOURCE_DIR "/models/panache.safetensors"));
-    strengths_.resize(model_->styles().size());
-    strengths_[static_cast<size_t>(*model_->find_style("old"))] = 1;
-  }
+  SavedState() { strengths_[static_cast<size_t>(*model_->find_style("old"))] = 1; }
   static std::vector<LiveOptions> option_sets() {
     LiveOptions late;
     late.max_lag = 1.2, late.max_lead = 0.2, late.skip_cycles = true;
@@ -65,9 +54,9 @@ class SavedState : public testing::Test {
     return at == a.end() ? -1 : at - a.begin();
   }
 
-  Clip walk_;
-  std::shared_ptr<const Model> model_;
-  std::vector<float> strengths_;
+  Clip walk_ = walker_walk(400);
+  std::shared_ptr<const Model> model_ = shipped_model();
+  std::vector<float> strengths_ = std::vector<float>(model_->styles().size());
 };
 
 TEST_F(SavedState, has_nothing_of_what_its_memory_held_before) {
