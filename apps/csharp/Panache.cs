@@ -96,8 +96,8 @@ public sealed class Model : IDisposable {
   public static Model Load(string path) => new Model(System.IO.File.ReadAllBytes(path));
   /// The index of a style, by its name or another word for it; throws if the model has none.
   public int FindStyle(string name) {
-    int place = Native.panache_model_find_style(Handle, Native.Utf8(name));
-    if (place >= 0) return place;
+    int index = Native.panache_model_find_style(Handle, Native.Utf8(name));
+    if (index >= 0) return index;
     throw Native.LastError();
   }
   public void Dispose() => Handle.Dispose();

@@ -26,18 +26,18 @@ function layOut(name, fields) {
   let size = 0, align = 4;
   const macro = new RegExp(`#define ${name.toUpperCase()}\\s+\\{(.*)\\}`).exec(header)?.[1] ?? '';
   const values = Array.from(macro.matchAll(/sizeof|NULL|[\d.]+/g), ([text]) => Number(text) || 0);
-  const places = {}, initial = {};
+  const layout = {}, initial = {};
   for (const [field, type, count] of fields) {
     const bytes = type === 'f64' ? 8 : 4;
     const begin = Math.ceil(size / bytes) * bytes, own = values.splice(0, count);
-    places[camel(field)] = [begin, type, count];
+    layout[camel(field)] = [begin, type, count];
     if (own.length) initial[camel(field)] = count === 1 ? own[0] : own;
     size = begin + bytes * count;
     align = Math.max(align, bytes);
   }
   size = Math.ceil(size / align) * align;
   if (macro) initial.structSize = size;
-  return { size, initial, places };
+  return { size, initial, layout };
 }
 // All arguments are numbers: handles and addresses, too.
 const functions = Array.from(

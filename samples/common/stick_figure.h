@@ -1,5 +1,6 @@
-/* A character for the samples: a skeleton of nineteen joints that walks, without any file. Stands in
- * for what an engine has: rest transforms once, and local transforms every frame. C99 and C++. */
+/* A character for the samples: a skeleton of nineteen joints that walks, without any file. Stands
+ * in for what an engine has: rest transforms once, and local transforms every frame. C99 and C++.
+ */
 #ifndef PANACHE_SAMPLES_STICK_FIGURE_H_
 #define PANACHE_SAMPLES_STICK_FIGURE_H_
 
@@ -38,23 +39,23 @@ typedef struct stick_pose {
   float translations[STICK_JOINTS][3];
 } stick_pose;
 
-static inline panache_input_pose stick_input(const stick_pose *pose) {
+static inline panache_input_pose stick_input(const stick_pose* pose) {
   panache_input_pose view = {&pose->rotations[0][0], &pose->translations[0][0]};
   return view;
 }
-static inline panache_output_pose stick_output(stick_pose *pose) {
+static inline panache_output_pose stick_output(stick_pose* pose) {
   panache_output_pose view = {&pose->rotations[0][0], &pose->translations[0][0]};
   return view;
 }
 
 /* Turns a joint about its x axis: arms and legs swing forward with angles below zero. */
-static inline void stick_bend(stick_pose *pose, int joint, double angle) {
+static inline void stick_bend(stick_pose* pose, int joint, double angle) {
   pose->rotations[joint][0] = (float)sin(angle / 2);
   pose->rotations[joint][3] = (float)cos(angle / 2);
 }
 
 /* The figure as it walks, `seconds` after it began; `phase` in 0..1 sets it off from others. */
-static inline void stick_walk(double seconds, double phase, stick_pose *pose) {
+static inline void stick_walk(double seconds, double phase, stick_pose* pose) {
   const double turn = 6.283185307179586 * (seconds * 0.9 + phase);
   for (int j = 0; j < STICK_JOINTS; ++j) {
     for (int k = 0; k < 4; ++k) pose->rotations[j][k] = stick_figure[j].rotation[k];
@@ -73,13 +74,13 @@ static inline void stick_walk(double seconds, double phase, stick_pose *pose) {
 }
 
 /* Reads a model, or says why not and ends the program. */
-static inline panache_model *stick_load_model(const char *path) {
-  FILE *file = fopen(path, "rb");
-  panache_model *model = NULL;
-  char *bytes = NULL;
+static inline panache_model* stick_load_model(const char* path) {
+  FILE* file = fopen(path, "rb");
+  panache_model* model = NULL;
+  char* bytes = NULL;
   long size = -1;
   if (file && fseek(file, 0, SEEK_END) == 0) size = ftell(file);
-  if (size > 0) bytes = (char *)malloc((size_t)size);
+  if (size > 0) bytes = (char*)malloc((size_t)size);
   if (bytes) {
     rewind(file);
     if (fread(bytes, 1, (size_t)size, file) == (size_t)size) {
@@ -105,7 +106,7 @@ static inline void stick_rotate(const float q[4], const float v[3], float out[3]
 }
 
 /* Where a joint is in the world. */
-static inline void stick_place(const stick_pose *pose, int joint, float out[3]) {
+static inline void stick_position(const stick_pose* pose, int joint, float out[3]) {
   for (int k = 0; k < 3; ++k) out[k] = pose->translations[joint][k];
   for (int j = stick_figure[joint].parent; j >= 0; j = stick_figure[j].parent) {
     float turned[3];

@@ -33,8 +33,8 @@ void walk(const char* model_path, const char* style) {
     character.step(stick_input(&in), 1.0 / kFps, stick_output(&out));
     if (frame % (kFps / 2)) continue;
     float hips[3], head[3], new_hips[3], new_head[3];
-    stick_place(&in, 0, hips), stick_place(&in, 4, head);
-    stick_place(&out, 0, new_hips), stick_place(&out, 4, new_head);
+    stick_position(&in, 0, hips), stick_position(&in, 4, head);
+    stick_position(&out, 0, new_hips), stick_position(&out, 4, new_head);
     std::printf("%7.1f  %41.1f  %8.1f\n", static_cast<double>(frame) / kFps,
                 100.0 * (head[2] - hips[2]), 100.0 * (new_head[2] - new_hips[2]));
   }

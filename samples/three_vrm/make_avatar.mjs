@@ -18,7 +18,7 @@ for (const [side, x] of [['left', 1], ['right', -1]]) {
     [`${side}Foot`, `${side}LowerLeg`, [x * 0.07, 0.06, -0.01]],
     [`${side}Toes`, `${side}Foot`, [x * 0.07, 0.02, 0.06]]);
 }
-const at = new Map(joints.map(([name, , place]) => [name, place]));
+const at = new Map(joints.map(([name, , position]) => [name, position]));
 const indexOf = (name) => joints.findIndex(([own]) => own === name);
 
 const add = (a, b) => a.map((v, i) => v + b[i]);
@@ -140,9 +140,9 @@ const looks = {
   angry: { smile: -0.7, inner: -1.2, eye: 0.85 }, surprised: { open: 1, brow: 1, eye: 1.25 },
   relaxed: { smile: 0.5, eye: 0.45, brow: 0.2 }, blink: { eye: 0.06 }, aa: { open: 0.7 },
 };
-const eye = (x, wide) => ({ eye: open = 1 }) =>
-  surface(16, 4, (u, v) => onFace(x + wide * 0.026 * v * Math.sin(2 * Math.PI * u),
-    0.005 + wide * 0.036 * open * v * -Math.cos(2 * Math.PI * u), 0.002 + 0.002 * (2 - wide)));
+const eye = (x, width) => ({ eye: open = 1 }) =>
+  surface(16, 4, (u, v) => onFace(x + width * 0.026 * v * Math.sin(2 * Math.PI * u),
+    0.005 + width * 0.036 * open * v * -Math.cos(2 * Math.PI * u), 0.002 + 0.002 * (2 - width)));
 const brow = (x) => ({ inner = 0, brow: up = 0 }) => ribbon((t) => [x + 0.032 * t,
   0.062 + 0.02 * up + 0.006 * (1 - t * t) - Math.sign(x) * t * 0.014 * inner], 0.005, 0.004);
 const mouth = ({ smile = 0.35, open = 0 }) => ribbon((t) => [0.04 * t * (1 - 0.35 * open),
@@ -220,9 +220,10 @@ function makeMesh(name, own, targets) {
 }
 
 const nodeOf = (name) => indexOf(name);
-joints.forEach(([name, parent, place], i) => {
+joints.forEach(([name, parent, position], i) => {
   const children = joints.flatMap(([, above], k) => (above === name ? [k] : []));
-  json.nodes.push({ name, translation: add(place, scale(parent ? at.get(parent) : [0, 0, 0], -1)),
+  const above = parent ? at.get(parent) : [0, 0, 0];
+  json.nodes.push({ name, translation: add(position, scale(above, -1)),
     ...(children.length && { children }) });
   if (!parent) json.scenes[0].nodes.push(i);
 });

@@ -11,13 +11,13 @@ import bpy
 
 program, library_zip, folder = sys.argv[sys.argv.index('--') + 1:][:3]
 NAME = 'bl_ext.user_default.panache'
-place = os.path.join(folder, 'modules', *NAME.split('.'))
+installed = os.path.join(folder, 'modules', *NAME.split('.'))
 with zipfile.ZipFile(library_zip.removesuffix('.zip') + '-extension.zip') as archive:
-    archive.extractall(place)
+    archive.extractall(installed)
 sys.path.append(os.path.join(folder, 'modules'))
-with open(os.path.join(place, 'blender_manifest.toml')) as file:
+with open(os.path.join(installed, 'blender_manifest.toml')) as file:
     for wheel in re.findall(r'"\./(wheels/[^"]+)"', file.read()):
-        with zipfile.ZipFile(os.path.join(place, wheel)) as archive:
+        with zipfile.ZipFile(os.path.join(installed, wheel)) as archive:
             archive.extractall(os.path.join(folder, 'site-packages'))
 sys.path.append(os.path.join(folder, 'site-packages'))
 own = os.path.join(folder, 'own')

@@ -38,7 +38,7 @@ class Glb:
                 times, self._numbers(sampler['output']), sampler.get('interpolation', 'LINEAR'))
         return tracks
 
-    def places(self, name, seconds):
+    def positions(self, name, seconds):
         """{node: place}, one for each of the moments, metres with Z up as in Blender."""
         tracks = self._tracks(name)
         nodes = self.json['nodes']
@@ -47,9 +47,9 @@ class Glb:
         def value(i, path, moment, rest):
             if (i, path) not in tracks:
                 return nodes[i].get(path, rest)
-            times, values, how = tracks[i, path]
+            times, values, interpolation = tracks[i, path]
             k = bisect.bisect_right(times, moment + 1e-5) - 1
-            if k < 0 or k + 1 >= len(times) or how == 'STEP':
+            if k < 0 or k + 1 >= len(times) or interpolation == 'STEP':
                 return values[max(k, 0)]
             t = max(0.0, (moment - times[k]) / (times[k + 1] - times[k]))
             if path == 'rotation':

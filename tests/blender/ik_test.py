@@ -50,12 +50,12 @@ rate = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
 frames = range(first, last + 1)
 worst = {'legs': (0, ''), 'rest': (0, '')}
 moved = 0
-for frame, places in zip(frames, styled.places(name, [f / rate for f in frames])):
+for frame, positions in zip(frames, styled.positions(name, [f / rate for f in frames])):
     for bone, head in checks.heads(armature, frame).items():
         if bone.startswith(CONTROLS):
             continue
         part = 'legs' if bone.endswith(LEGS) else 'rest'
-        worst[part] = max(worst[part], ((head - places[bone]).length,
+        worst[part] = max(worst[part], ((head - positions[bone]).length,
                                         '%s in frame %d' % (bone, frame)))
 for part, (apart, where) in worst.items():
     print('IK rig, %s: %.2f mm at most, %s' % (part, 1000 * apart, where))

@@ -34,14 +34,14 @@ def seen(name, bones, actions):
     # The joints are where the file has them, in the middle of the motion.
     file = glb.Glb(path)
     seconds = 0.5
-    places = file.places(file.names[0], [seconds])[0]
+    positions = file.positions(file.names[0], [seconds])[0]
     armature = armatures[0]
     armature.animation_data.action = max(
         bpy.data.actions, key=lambda a: a.name.startswith(file.names[0]))
     for track in armature.animation_data.nla_tracks:
         track.mute = True
     heads = checks.heads(armature, int(seconds * FPS))
-    apart = max((heads[b] - places[b]).length for b in heads if b in places)
+    apart = max((heads[b] - positions[b]).length for b in heads if b in positions)
     assert apart < 0.002, (name, apart)
     return armature
 
@@ -79,10 +79,10 @@ def fbx_seen(name, like, motion):
     file = glb.Glb(os.path.join(checks.folder, like))
     name_there, = [n for n in file.names if motion in n]
     frames = list(range(0, FPS, 3))
-    places = file.places(name_there, [f / FPS for f in frames])
-    shared = set(checks.heads(armature, 0)) & set(places[0])
+    positions = file.positions(name_there, [f / FPS for f in frames])
+    shared = set(checks.heads(armature, 0)) & set(positions[0])
     assert len(shared) > 15, (name, shared)
-    for frame, there in zip(frames, places):
+    for frame, there in zip(frames, positions):
         here = checks.heads(armature, frame)
         worst = max(shared, key=lambda j: (here[j] - there[j]).length)
         apart = (here[worst] - there[worst]).length

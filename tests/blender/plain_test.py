@@ -32,11 +32,11 @@ def compare(glb_file, word, action):
     name = [n for n in glb_file.names if word in n][0]
     rate = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
     frames = range(first, last + 1)
-    in_glb = glb_file.places(name, [frame / rate for frame in frames])
+    in_glb = glb_file.positions(name, [frame / rate for frame in frames])
     worst = (0, '')
-    for frame, places in zip(frames, in_glb):
+    for frame, positions in zip(frames, in_glb):
         for bone, head in checks.heads(armature, frame).items():
-            worst = max(worst, ((head - places[bone]).length, '%s in frame %d' % (bone, frame)))
+            worst = max(worst, ((head - positions[bone]).length, '%s in frame %d' % (bone, frame)))
     print('plain rig, %s: %.2f mm at most between Blender and panache stylize, %s' % (
         word, 1000 * worst[0], worst[1]))
     assert worst[0] < MOST_APART, worst

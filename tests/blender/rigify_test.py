@@ -40,13 +40,13 @@ sampled = sampling.Sampled(bpy.context, rig, walk)
 styled = sampled.stylize(settings.model(), {'old': 1.0}, settings.options(rig))
 worst = {'feet': (0, ''), 'rest': (0, '')}
 for i in range(len(styled)):
-    places = sampled.world_pose(styled, i)
+    positions = sampled.world_pose(styled, i)
     heads = checks.heads(rig, sampled.first + i)
-    for joint, (_, place) in zip(sampled.joints, places):
+    for joint, (_, position) in zip(sampled.joints, positions):
         if joint.bone is None:
             continue
         part = 'feet' if joint.name[:4] in ('foot', 'shin', 'toe.') else 'rest'
-        apart = (heads[joint.bone] - place).length
+        apart = (heads[joint.bone] - position).length
         worst[part] = max(worst[part], (apart, '%s in frame %d' % (joint.name, i)))
 for part, (apart, where) in worst.items():
     print('Rigify, %s: %.1f mm at most, %s' % (part, 1000 * apart, where))
@@ -69,7 +69,7 @@ for which, settings_of_export in {'all': {}, 'deform': {'export_def_bones': True
     checks.run('stylize', path, '--style', 'old=1', '--no-timing', '-o', old)
     result = glb.Glb(old)
     moments = [i / 30 for i in range(24)]
-    neutral, bent = (result.places(name, moments) for name in ('walk', 'walk (old 1)'))
+    neutral, bent = (result.positions(name, moments) for name in ('walk', 'walk (old 1)'))
     worst, moved = (0, ''), 0
     for a, b in zip(neutral, bent):
         # What the styled joints carry stays on them: nothing is torn.

@@ -88,10 +88,10 @@ def with_ik(armature, leg=('UpperLeg', 'LowerLeg', 'Foot')):
         ik.iterations = 500
         turn = armature.pose.bones[side + leg[2]].constraints.new('COPY_ROTATION')
         turn.target, turn.subtarget = armature, 'foot_ik' + end
-    for frame, places in enumerate(seen, first):
+    for frame, legs in enumerate(seen, first):
         scene.frame_set(frame)
         for side, end in sides.items():
-            foot, ahead, _ = places[side]
+            foot, ahead, _ = legs[side]
             _key(armature.pose.bones['foot_ik' + end], foot, frame)
             pole = armature.pose.bones['knee_pole' + end]
             _key(pole, Matrix.Translation(ahead) @
@@ -104,8 +104,8 @@ def with_ik(armature, leg=('UpperLeg', 'LowerLeg', 'Foot')):
 
 
 # The nearer ankle and pole are, the more the knee is bent.
-def _bend(place):
-    foot, ahead, knee = place
+def _bend(leg):
+    foot, ahead, knee = leg
     return -(foot.translation - ahead).length
 
 

@@ -69,7 +69,7 @@ def steps():
     subprocess.run(['xdotool', 'mousemove', '300', '500'], check=True)
     yield
     picture('1-open')
-    before = {name: place.copy() for name, place in seen().items()}
+    before = {name: position.copy() for name, position in seen().items()}
     armature().panache.preview = True
     armature().panache.styles.old = 1
     yield

@@ -257,17 +257,17 @@ std::pair<Vec3, Vec3> hips_of(const std::string& file) {
   for (const bool last : {false, true}) {
     const ConstPose pose = clip.pose(last ? clip.frames - 1 : 0);
     Quat turn;
-    Vec3 place;
+    Vec3 position;
     std::vector<size_t> chain;
     for (int j = static_cast<int>(hips); j >= 0;) {
       chain.push_back(static_cast<size_t>(j));
       j = clip.skeleton.joints[chain.back()].parent;
     }
     for (auto j = chain.rbegin(); j != chain.rend(); ++j) {
-      place = place + rotate(turn, pose.translations[*j]);
+      position = position + rotate(turn, pose.translations[*j]);
       turn = turn * pose.rotations[*j];
     }
-    (last ? out.second : out.first) = place;
+    (last ? out.second : out.first) = position;
   }
   return out;
 }

@@ -136,9 +136,9 @@ TEST_F(Convert, what_is_no_humanoid_keeps_its_units) {
   must_quietly("convert box.bvh -o big.glb --scale 2 --up z");
   const auto big = open("big.glb");
   std::vector<Quat> rotations(big->clip().joints());
-  std::vector<Vec3> places(big->clip().joints());
-  world_pose(big->clip().skeleton, big->clip().pose(0), {rotations, places});
-  EXPECT_NEAR(places[1].y, 10, 1e-5) << "twice as large and Y up";
+  std::vector<Vec3> positions(big->clip().joints());
+  world_pose(big->clip().skeleton, big->clip().pose(0), {rotations, positions});
+  EXPECT_NEAR(positions[1].y, 10, 1e-5) << "twice as large and Y up";
 }
 
 TEST_F(Convert, a_folder_needs_a_format) {

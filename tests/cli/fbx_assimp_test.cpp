@@ -25,8 +25,8 @@ aiQuaternion value_at(const aiQuatKey* keys, unsigned count, double ticks) {
   return keys[k].mValue;
 }
 
-void add_places(const aiNode& node, const aiAnimation& animation, double ticks,
-                const aiMatrix4x4& above, std::map<std::string, aiVector3D>& out) {
+void add_positions(const aiNode& node, const aiAnimation& animation, double ticks,
+                   const aiMatrix4x4& above, std::map<std::string, aiVector3D>& out) {
   aiMatrix4x4 local = node.mTransformation;
   for (unsigned c = 0; c < animation.mNumChannels; ++c) {
     const aiNodeAnim& channel = *animation.mChannels[c];
@@ -38,7 +38,7 @@ void add_places(const aiNode& node, const aiAnimation& animation, double ticks,
   const aiMatrix4x4 world = above * local;
   out[node.mName.C_Str()] = {world.a4, world.b4, world.c4};
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    add_places(*node.mChildren[i], animation, ticks, world, out);
+    add_positions(*node.mChildren[i], animation, ticks, world, out);
   }
 }
 
@@ -60,16 +60,16 @@ void expect_seen_by_assimp(const std::string& bytes, float metres) {
   ASSERT_TRUE(animation);
   const Clip& clip = (*file)->clip();
   std::vector<Quat> rotations(clip.joints());
-  std::vector<Vec3> places(clip.joints());
+  std::vector<Vec3> positions(clip.joints());
   for (int f = 0; f < clip.frames; ++f) {
     std::map<std::string, aiVector3D> seen;
-    add_places(*scene->mRootNode, *animation, f * clip.frame_time * animation->mTicksPerSecond, {},
-               seen);
-    world_pose(clip.skeleton, clip.pose(f), {rotations, places});
+    add_positions(*scene->mRootNode, *animation, f * clip.frame_time * animation->mTicksPerSecond,
+                  {}, seen);
+    world_pose(clip.skeleton, clip.pose(f), {rotations, positions});
     for (size_t j = 0; j < clip.joints(); ++j) {
       ASSERT_TRUE(seen.contains(clip.skeleton.joints[j].name));
       const aiVector3D at = seen[clip.skeleton.joints[j].name] * metres;
-      ASSERT_LE(length(places[j] - Vec3{at.x, at.y, at.z}), 1e-3f)
+      ASSERT_LE(length(positions[j] - Vec3{at.x, at.y, at.z}), 1e-3f)
           << clip.skeleton.joints[j].name << " in frame " << f;
     }
   }
@@ -87,8 +87,8 @@ TEST_F(FbxInAssimp, a_styled_file_is_seen_as_it_was_meant) {
   FbxOptions options;
   options.pre_rotation = normalized(Quat{0.3f, -0.5f, 0.2f, 0.7f});
   write("walk.fbx", format_fbx(walking_clip(40), options));
-  for (const char* place : {"--replace", "--first", "--last"}) {
-    must({"stylize", "walk.fbx", "--style", "old=1", place, "--force", "-o", "old.fbx"});
+  for (const char* mode : {"--replace", "--first", "--last"}) {
+    must({"stylize", "walk.fbx", "--style", "old=1", mode, "--force", "-o", "old.fbx"});
     expect_seen_by_assimp(read("old.fbx"), 0.01f);
   }
 }

@@ -11,7 +11,7 @@ namespace {
 
 // Angles and places in the file have at least six decimals, and floats carry them: along seven
 // joints of half a metre, and pivots of 6 cm, less than this. Metres.
-constexpr float kPlaceTolerance = 2e-5f;
+constexpr float kPositionTolerance = 2e-5f;
 
 class FbxText : public FbxProgramTest {
  protected:
@@ -22,7 +22,7 @@ class FbxText : public FbxProgramTest {
       const Ran ran = must({"convert", "in.fbx", "--force", "-o", name});
       const auto file = read_motion(path(name));
       ASSERT_TRUE(file.ok()) << file.error().message;
-      expect_same_positions(walk, (*file)->clip(), kPlaceTolerance);
+      expect_same_positions(walk, (*file)->clip(), kPositionTolerance);
     }
   }
   std::string rejection(const std::string& bytes) {
@@ -116,8 +116,8 @@ TEST_F(FbxText, keys_at_any_times_and_scales_around_pivots_are_as_the_formula_sa
               position_by_formula(kChain, take, m, first + f).as<float>();
         }
       }
-      expect_same_positions(expected, (*glb)->clip(t == 0 ? 0 : 1), kPlaceTolerance);
-      expect_same_positions(expected, (*bvh)->clip(), kPlaceTolerance);
+      expect_same_positions(expected, (*glb)->clip(t == 0 ? 0 : 1), kPositionTolerance);
+      expect_same_positions(expected, (*bvh)->clip(), kPositionTolerance);
     }
   }
 }

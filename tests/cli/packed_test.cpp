@@ -45,43 +45,43 @@ class Packer {
     const int component = accessors[a]["componentType"];
     std::string bytes = from_.bin.substr(from_.json["bufferViews"][v]["byteOffset"],
                                          from_.json["bufferViews"][v]["byteLength"]);
-    Json how = {{"mode", "ATTRIBUTES"}};
+    Json coding = {{"mode", "ATTRIBUTES"}};
     size_t stride = components * (component == 5126 ? 4 : 2);
     std::string encoded = bytes;
     const bool is_index = from_.json["bufferViews"][v].value("target", 0) == 34963;
     if (is_index) {
-      how["mode"] = triangles_ ? "TRIANGLES" : "INDICES";
+      coding["mode"] = triangles_ ? "TRIANGLES" : "INDICES";
     } else if (is_of("NORMAL", a)) {
-      filter(how, "OCTAHEDRAL", bytes, encoded, stride = 4, 3);
+      filter(coding, "OCTAHEDRAL", bytes, encoded, stride = 4, 3);
       plain.json["accessors"][a]["componentType"] = 5120;
       plain.json["accessors"][a]["normalized"] = true;
     } else if (const std::string path = path_of(a); path == "rotation" && component == 5126) {
-      filter(how, "QUATERNION", bytes, encoded, stride = 8, 4);
+      filter(coding, "QUATERNION", bytes, encoded, stride = 8, 4);
       plain.json["accessors"][a]["componentType"] = 5122;
       plain.json["accessors"][a]["normalized"] = true;
     } else if (path == "translation") {
-      filter(how, "EXPONENTIAL", bytes, encoded, stride, 3);
+      filter(coding, "EXPONENTIAL", bytes, encoded, stride, 3);
     }
     packed.json["accessors"][a] = plain.json["accessors"][a];
 
     const int target = from_.json["bufferViews"][v].value("target", 0);
     plain.add_view(bytes, target);
     Json& view = plain.json["bufferViews"].back();
-    if (stride == 4 && how.contains("filter")) view["byteStride"] = 4;
+    if (stride == 4 && coding.contains("filter")) view["byteStride"] = 4;
     Json out = view;
     const bool pack = what_ == What::all || target != 0;
-    const std::string data = pack ? pack_bytes(encoded, stride, how["mode"]) : bytes;
+    const std::string data = pack ? pack_bytes(encoded, stride, coding["mode"]) : bytes;
     packed.bin.resize((packed.bin.size() + 3) / 4 * 4);
-    Json place = {{"buffer", 0}, {"byteOffset", packed.bin.size()}, {"byteLength", data.size()}};
+    Json extent = {{"buffer", 0}, {"byteOffset", packed.bin.size()}, {"byteLength", data.size()}};
     packed.bin += data;
     if (pack) {
-      place["byteStride"] = stride;
-      place["count"] = encoded.size() / stride;
-      place.update(how);
+      extent["byteStride"] = stride;
+      extent["count"] = encoded.size() / stride;
+      extent.update(coding);
       out["buffer"] = 1;
-      out["extensions"][kExtension] = place;
+      out["extensions"][kExtension] = extent;
     } else {
-      out.update(place);
+      out.update(extent);
     }
     packed.json["bufferViews"].push_back(out);
   }
@@ -108,14 +108,14 @@ class Packer {
   }
 
   // Turns floats into what a filter wants in `encoded` and into what it gives in `bytes`.
-  static void filter(Json& how, const char* name, std::string& bytes, std::string& encoded,
+  static void filter(Json& coding, const char* name, std::string& bytes, std::string& encoded,
                      size_t stride, size_t components) {
-    how["filter"] = name;
+    coding["filter"] = name;
     const size_t count = bytes.size() / 4 / components;
-    const size_t wide = name[0] == 'E' ? 3 : 4;
-    std::vector<float> numbers(count * wide);
+    const size_t width = name[0] == 'E' ? 3 : 4;
+    std::vector<float> numbers(count * width);
     for (size_t i = 0; i < count; ++i) {
-      std::memcpy(&numbers[i * wide], &bytes[i * components * 4], components * 4);
+      std::memcpy(&numbers[i * width], &bytes[i * components * 4], components * 4);
     }
     encoded.assign(count * stride, '\0');
     if (name[0] == 'O') meshopt_encodeFilterOct(encoded.data(), count, stride, 8, numbers.data());

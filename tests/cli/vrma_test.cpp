@@ -128,11 +128,11 @@ class Vrma : public ProgramTest {
           length(body.joints[index(left_lower_leg)] - body.joints[index(left_upper_leg)]);
       const float avatar_leg = length(at(index(left_foot)) - at(index(left_lower_leg))) +
                                length(at(index(left_lower_leg)) - at(index(left_upper_leg)));
-      const Vec3 way = (middle - start) / leg,
-                 avatar_way = (avatar_middle - avatar_start) / avatar_leg;
+      const Vec3 travel = (middle - start) / leg,
+                 avatar_travel = (avatar_middle - avatar_start) / avatar_leg;
       // Players scale by the height of the hips, and the avatar's are not as high as ours above
       // legs of the same length.
-      EXPECT_LT(length(way - avatar_way), 0.1f * length(way) + 0.01f) << name << " " << i;
+      EXPECT_LT(length(travel - avatar_travel), 0.1f * length(travel) + 0.01f) << name << " " << i;
     }
     std::printf("%s: worst limb %.4f deg\n", name.c_str(), worst_deg);
   }
@@ -227,11 +227,11 @@ TEST_F(Vrma, avatars_of_both_versions_get_what_the_player_shows) {
     for (size_t i = 0; i < std::size(kTimes); ++i) {
       const auto frame = static_cast<int>(std::lround(kTimes[i] / clip.frame_time));
       if (frame >= clip.frames) continue;
-      const std::vector<Vec3> places = world_positions(clip, frame);
-      const auto place = [&](int human) {
+      const std::vector<Vec3> positions = world_places(clip, frame);
+      const auto position_of = [&](int human) {
         size_t j = 0;
         while (clip.skeleton.joints[j].role != human_joint_name(human)) ++j;
-        return places[j];
+        return positions[j];
       };
       const auto shown = [&](int human) {
         const Json& p = seen["poses"][i]["joints"][std::string(human_joint_name(human))];
@@ -240,7 +240,7 @@ TEST_F(Vrma, avatars_of_both_versions_get_what_the_player_shows) {
       for (const HumanJoint joint : {left_lower_arm, left_hand, right_lower_arm, right_hand,
                                      left_lower_leg, left_foot, right_lower_leg, right_foot}) {
         const int j = index(joint), parent = kHumanParent[j];
-        worst_deg = std::max(worst_deg, angle_deg(normalized(place(j) - place(parent)),
+        worst_deg = std::max(worst_deg, angle_deg(normalized(position_of(j) - position_of(parent)),
                                                   normalized(shown(j) - shown(parent))));
       }
     }

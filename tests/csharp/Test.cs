@@ -181,22 +181,22 @@ static class Test {
                        "LeftLowerLeg", "LeftFoot", "LeftToes", "RightUpperLeg", "RightLowerLeg",
                        "RightFoot", "RightToes" };
     int[] parents = { -1, 0, 1, 2, 3, 2, 5, 6, 2, 8, 9, 0, 11, 12, 13, 0, 15, 16, 17 };
-    float[] places = { 0, .95f, 0, 0, .15f, 0, 0, .15f, 0, 0, .22f, 0, 0, .1f, .02f,
+    float[] positions = { 0, .95f, 0, 0, .15f, 0, 0, .15f, 0, 0, .22f, 0, 0, .1f, .02f,
                        .19f, .16f, 0, .02f, -.28f, 0, 0, -.25f, .02f,
                        -.19f, .16f, 0, -.02f, -.28f, 0, 0, -.25f, .02f,
                        .09f, -.04f, 0, 0, -.42f, 0, 0, -.41f, -.02f, 0, -.07f, .14f,
                        -.09f, -.04f, 0, 0, -.42f, 0, 0, -.41f, -.02f, 0, -.07f, .14f };
     var joints = names.Select((name, j) => new Joint {
-      Name = name, Parent = parents[j], Translation = places.Skip(3 * j).Take(3).ToArray()
+      Name = name, Parent = parents[j], Translation = positions.Skip(3 * j).Take(3).ToArray()
     }).ToArray();
     using (var skeleton = new Skeleton(joints, "+Y", 1)) {
       Expect(skeleton.JointCount == 19 && skeleton.Find("leftHand") == 7, "the left hand");
       Expect(skeleton.Find("leftShoulder") == -1, "no clavicle");
       using (var character = new Character(model, skeleton)) {
-        Array.Copy(places, character.InputTranslations, places.Length);
+        Array.Copy(positions, character.InputTranslations, positions.Length);
         character.Step(1.0 / 60);
         Expect(character.Rotations.SequenceEqual(character.InputRotations), "unchanged without style");
-        Expect(character.Translations.SequenceEqual(places), "unchanged without style");
+        Expect(character.Translations.SequenceEqual(positions), "unchanged without style");
       }
     }
     foreach (var joint in joints) joint.Name = "";  // By the map alone.

@@ -61,8 +61,8 @@ class Godot : public testing::Test {
   static void animate(int frame) {
     const ConstPose pose = std::as_const(walk_).pose(frame);
     for (size_t j = 0; j < host.bones.size(); ++j) {
-      const Quat q = pose.rotations[place(j)];
-      const Vec3 p = pose.translations[place(j)];
+      const Quat q = pose.rotations[joint_of(j)];
+      const Vec3 p = pose.translations[joint_of(j)];
       host.bones[j].rotation = {q.x, q.y, q.z, q.w};
       host.bones[j].position = {p.x, p.y, p.z};
     }
@@ -72,7 +72,7 @@ class Godot : public testing::Test {
     hips.position.x = hips.position.z = 0;
   }
   // The walk's joint of a bone.
-  static size_t place(size_t bone) {
+  static size_t joint_of(size_t bone) {
     for (size_t j = 0; j < walk_.joints(); ++j) {
       if (walk_.skeleton.joints[j].name == host.bones[bone].name) return j;
     }
@@ -140,11 +140,11 @@ class Reference {
     panache_character_set_shape(character_, &shape);
   }
   // Largest difference to the host's bones, of which each is that joint of the walk.
-  template <class Place>
-  float apart(Place place) const {
+  template <class JointOf>
+  float apart(JointOf joint_of) const {
     float max = 0;
     for (size_t b = 0; b < host.bones.size(); ++b) {
-      const size_t j = place(b) + 1;
+      const size_t j = joint_of(b) + 1;
       const Bone& bone = host.bones[b];
       const float there[] = {bone.rotation.x, bone.rotation.y, bone.rotation.z, bone.rotation.w,
                              bone.position.x, bone.position.y, bone.position.z};
@@ -176,7 +176,7 @@ TEST_F(Godot, a_styled_walk_has_the_bits_of_the_library) {
       animate(f);
       host.process(node);
       reference.step(f, host.seconds);
-      ASSERT_EQ(reference.apart(place), 0) << "frame " << f;
+      ASSERT_EQ(reference.apart(joint_of), 0) << "frame " << f;
     }
     EXPECT_GT(host.writes, walk_.frames);
     EXPECT_TRUE(host.errors.empty()) << host.errors.front();
@@ -201,8 +201,8 @@ TEST_F(Godot, the_side_of_a_style_is_the_librarys) {
     host.process(node);
     reference.step(f, host.seconds);
     captured.step(f, host.seconds);
-    ASSERT_EQ(reference.apart(place), 0) << "frame " << f;
-    max = std::max(max, captured.apart(place));
+    ASSERT_EQ(reference.apart(joint_of), 0) << "frame " << f;
+    max = std::max(max, captured.apart(joint_of));
   }
   EXPECT_GT(max, 0.01f);
   EXPECT_TRUE(host.errors.empty()) << host.errors.front();
@@ -233,7 +233,7 @@ TEST_F(Godot, a_person_is_a_number_or_a_word_and_may_change) {
       animate(f);
       host.process(node);
       reference.step(f, host.seconds);
-      ASSERT_EQ(reference.apart(place), 0) << "'" << one.text << "', frame " << f;
+      ASSERT_EQ(reference.apart(joint_of), 0) << "'" << one.text << "', frame " << f;
     }
     host.free_node(node);
   }
@@ -260,11 +260,11 @@ TEST_F(Godot, a_person_is_a_number_or_a_word_and_may_change) {
     host.process(node);
     reference.step(f, host.seconds);
     nobody.step(f, host.seconds);
-    ASSERT_EQ(reference.apart(place), 0) << "frame " << f;
+    ASSERT_EQ(reference.apart(joint_of), 0) << "frame " << f;
     if (f < 30) {
-      ASSERT_EQ(nobody.apart(place), 0) << "frame " << f;
+      ASSERT_EQ(nobody.apart(joint_of), 0) << "frame " << f;
     }
-    if (f < 120) max = std::max(max, nobody.apart(place));
+    if (f < 120) max = std::max(max, nobody.apart(joint_of));
   }
   EXPECT_GT(max, 0.01f);
   EXPECT_TRUE(host.errors.empty()) << host.errors.front();
@@ -287,8 +287,8 @@ TEST_F(Godot, energy_is_the_librarys) {
     host.process(node);
     reference.step(f, host.seconds);
     plain.step(f, host.seconds);
-    ASSERT_EQ(reference.apart(place), 0) << "frame " << f;
-    max = std::max(max, plain.apart(place));
+    ASSERT_EQ(reference.apart(joint_of), 0) << "frame " << f;
+    max = std::max(max, plain.apart(joint_of));
   }
   EXPECT_GT(max, 0.01f);
   host.free_node(node);
@@ -354,7 +354,7 @@ TEST_F(Godot, bones_before_their_parents_turned_and_scaled_nodes_are_styled_alik
     host.process(node);
     reference.step(f, host.seconds);
     // Rounding of the turn, through 200 frames.
-    ASSERT_LT(reference.apart(place), 1e-3f) << "frame " << f;
+    ASSERT_LT(reference.apart(joint_of), 1e-3f) << "frame " << f;
   }
   host.free_node(node);
 }
@@ -442,7 +442,7 @@ TEST_F(Godot, motion_is_forgotten_on_demand_and_time_is_that_of_the_skeletons_mo
     if (f < 100) host.process(node);
     if (f >= 100) host.process(node, 0.02);
     reference.step(f, f < 100 ? host.physics_seconds : 0.02);
-    ASSERT_EQ(reference.apart(place), 0) << "frame " << f;
+    ASSERT_EQ(reference.apart(joint_of), 0) << "frame " << f;
   }
   host.free_node(node);
 }

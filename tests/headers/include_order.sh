@@ -19,11 +19,11 @@ folders=$(sed -nE 's/^\| `(src|lab)\/([a-z]+)` .*/\2/p' "$root/docs/design.md")
 # Prints what is wrong with the modules in the folder $1, nothing where all is well.
 faults() {
   includes "$1" | awk -v folders="$folders" '
-    BEGIN { count = split(folders, name, "\n"); for (i = 1; i <= count; ++i) place[name[i]] = i }
+    BEGIN { count = split(folders, name, "\n"); for (i = 1; i <= count; ++i) rank[name[i]] = i }
     {
       split($1, from, "/"); split($2, to, "/")
-      if (!place[from[1]]) print $1 ": docs/design.md does not name its folder"
-      if (place[to[1]] > place[from[1]]) print $1 " includes " $2 ", which stands below it"
+      if (!rank[from[1]]) print $1 ": docs/design.md does not name its folder"
+      if (rank[to[1]] > rank[from[1]]) print $1 " includes " $2 ", which stands below it"
     }'
   # tsort fails where there is a circle, and names the files of it.
   includes "$1" | tsort 2>&1 >/dev/null | sed 's/^tsort: //; s/^-: input contains a/in a/' || true

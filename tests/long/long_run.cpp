@@ -49,9 +49,9 @@ class Actor {
     if (once_in(200)) seconds = once_in(2) ? 0 : uniform(0, 0.4);
     phase_ += speed_ * seconds;
     stick_walk(phase_, 0, &pose_);
-    place_ += 1.2 * speed_ * seconds;
-    if (once_in(5000)) place_ = 0;  // A cut.
-    pose_.translations[0][2] = static_cast<float>(place_);
+    distance_ += 1.2 * speed_ * seconds;
+    if (once_in(5000)) distance_ = 0;  // A cut.
+    pose_.translations[0][2] = static_cast<float>(distance_);
     if (leap_ > 0) {  // A flight of half a second: 9.81 / 2 * t * (T - t).
       pose_.translations[0][1] += static_cast<float>(4.9 * leap_ * (kLeap - leap_));
       leap_ -= seconds;
@@ -64,7 +64,7 @@ class Actor {
   static constexpr double kLeap = 0.5;
   std::mt19937 random_;
   stick_pose pose_{};
-  double speed_ = 1, phase_ = 0, place_ = 0, leap_ = 0;
+  double speed_ = 1, phase_ = 0, distance_ = 0, leap_ = 0;
 };
 
 void require_sound(const stick_pose& pose, int64_t frame) {

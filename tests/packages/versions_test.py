@@ -49,9 +49,9 @@ named = {
     'CITATION.cff': found(r'^version: (.*)$', citation),
     'CHANGELOG.md': found(r'^## \[([0-9.]+)\]', changelog),
 }
-for place, value in named.items():
+for where, value in named.items():
     if value != version:
-        failures.append(f'{place}: expected version {version}, found {value}')
+        failures.append(f'{where}: expected version {version}, found {value}')
 
 date = found(r'^## \[[0-9.]+\] - (\d{4}-\d{2}-\d{2})$', changelog)
 cited = found(r'^date-released: (.*)$', citation)

@@ -40,9 +40,9 @@ if os.path.isdir(os.path.join(root, 'build/glibc-2.31')):
     expect(promised <= (2, 31), f'{tag}: expected manylinux_2_31 or older')
 libraries = [one for one in names if re.search(r'\.so(\.\d+)*$', one)]
 expect('panache/lib/libpanache.so' in libraries, 'there is no library')
-with tempfile.TemporaryDirectory() as place:
+with tempfile.TemporaryDirectory() as work:
     for library in libraries:
-        path = archive.extract(library, place)
+        path = archive.extract(library, work)
         text = subprocess.run(['readelf', '--wide', '--version-info', '--dynamic', path], check=True,
                               capture_output=True, text=True).stdout
         glibc = [tuple(map(int, found.split('.')))
@@ -84,18 +84,18 @@ else:
 spec = importlib.util.spec_from_file_location('backend', os.path.join(root, 'apps/python/backend.py'))
 backend = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(backend)
-with tempfile.TemporaryDirectory() as place:
-    source = os.path.join(place, backend.build_sdist(place))
+with tempfile.TemporaryDirectory() as work:
+    source = os.path.join(work, backend.build_sdist(work))
     top = f'panache-{version}'
     with tarfile.open(source) as tar:
         packed = tar.getnames()
         expect(all(one.split('/')[0] == top for one in packed), 'sources: outside of their folder')
-        tar.extractall(place)
+        tar.extractall(work)
     for one in ('PKG-INFO', 'pyproject.toml', 'apps/python/panache/py.typed',
                 'models/panache-int8.safetensors', 'include/panache/panache.hpp', 'LICENSE'):
         expect(f'{top}/{one}' in packed, f'sources: no {one}')
     configured = subprocess.run(
-        ['cmake', '-G', 'Ninja', '-S', os.path.join(place, top), '-B', os.path.join(place, 'build'),
+        ['cmake', '-G', 'Ninja', '-S', os.path.join(work, top), '-B', os.path.join(work, 'build'),
          '-DPANACHE_PROGRAM=OFF'], capture_output=True, text=True)
     expect(configured.returncode == 0, f'sources: {configured.stderr}')
 sys.exit('\n'.join(failures) or 0)

@@ -27,11 +27,11 @@ def test_structs_are_those_of_the_header():
     lines = subprocess.run([os.environ['PANACHE_STRUCT_SIZES']], check=True, capture_output=True,
                            text=True).stdout.split('\n')
     for line in filter(None, lines):
-        name, size, *places = line.split()
+        name, size, *fields = line.split()
         struct = getattr(structs, name.title().replace('_', ''))
         assert ctypes.sizeof(struct) == int(size), name
         assert [text for field, _ in struct._fields_
-                for text in (field, str(getattr(struct, field).offset))] == places, name
+                for text in (field, str(getattr(struct, field).offset))] == fields, name
         seen += 1
     assert seen == len(vars(structs))
 
@@ -517,9 +517,9 @@ def test_styles_are_found_in_any_case(model, walk):
 
 
 def test_names_and_paths_of_any_bytes_reach_python(walk_file, tmp_path):
-    def place(name):
+    def path_of(name):
         return os.fsdecode(os.fsencode(tmp_path) + b'/' + name)
-    walk = place(b'w\xfclk.bvh')
+    walk = path_of(b'w\xfclk.bvh')
     text = walk_file.read_bytes()
     root = text.split(b'ROOT ', 1)[1].split()[0]
     pathlib.Path(walk).write_bytes(text.replace(b'ROOT ' + root, b'ROOT ' + root + b'\xfc', 1))
@@ -527,9 +527,9 @@ def test_names_and_paths_of_any_bytes_reach_python(walk_file, tmp_path):
         file = panache.MotionFile(path)
         assert len(file.clip()) == 240
         assert file.joint_names[0] == root.decode() + '\ufffd'
-    panache.stylize_file(walk, place(b'\xe4.bvh'), {'old': 1})
-    assert b'ROOT ' + root + b'\xfc' in pathlib.Path(place(b'\xe4.bvh')).read_bytes()
-    rod = place(b'r\xf6d.bvh')
+    panache.stylize_file(walk, path_of(b'\xe4.bvh'), {'old': 1})
+    assert b'ROOT ' + root + b'\xfc' in pathlib.Path(path_of(b'\xe4.bvh')).read_bytes()
+    rod = path_of(b'r\xf6d.bvh')
     pathlib.Path(rod).write_bytes(
         b'HIERARCHY\nROOT a\xfc\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nEnd Site\n{\n'
         b'OFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0\n')

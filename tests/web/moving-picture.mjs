@@ -57,7 +57,7 @@ floor.position.y = 0.004;
 floor.receiveShadow = true;
 scene.add(floor);
 
-// A walk: its pose at a time, the length of its cycle, the way of a cycle.
+// A walk: its pose at a time, the length of its cycle, the travel of a cycle.
 async function walk(index) {
   const gltf = await new GLTFLoader().loadAsync('/' + index + '.glb');
   const material = new THREE.MeshStandardMaterial({ color: colours[index % colours.length],
@@ -89,8 +89,8 @@ async function walk(index) {
     // A second cycle is as good as the first.
     if (distance < least - 0.004) [cycle, least] = [length, distance];
   }
-  const start = at(from), way = at(from + cycle).sub(start);
-  return { scene: gltf.scene, at, cycle, start, way, least };
+  const start = at(from), travel = at(from + cycle).sub(start);
+  return { scene: gltf.scene, at, cycle, start, travel, least };
 }
 
 const walks = [];
@@ -108,7 +108,7 @@ const tilt = 0.62; // The characters' heading from the line of sight, radians.
 walks.forEach((walk, i) => {
   const stage = new THREE.Group();
   stage.position.x = (i - (walks.length - 1) / 2) * spacing;
-  stage.rotation.y = tilt - Math.atan2(walk.way.x, walk.way.z);
+  stage.rotation.y = tilt - Math.atan2(walk.travel.x, walk.travel.z);
   stage.add(walk.scene);
   scene.add(stage);
   walk.stage = stage;
@@ -116,7 +116,7 @@ walks.forEach((walk, i) => {
   belt.position.copy(stage.position);
   belt.rotation.y = tilt;
   walk.marks = [];
-  walk.gap = walk.way.length() / Math.max(1, Math.round(walk.way.length() / 0.45));
+  walk.gap = walk.travel.length() / Math.max(1, Math.round(walk.travel.length() / 0.45));
   for (let k = 0; k * walk.gap < 1.9; ++k) {
     const mark = new THREE.Mesh(new THREE.PlaneGeometry(0.8, 0.03),
       new THREE.MeshBasicMaterial({ color: 0xe2deda }));
@@ -140,10 +140,10 @@ window.show = (frame) => {
     const cycles = Math.round(duration / walk.cycle) * share;
     const part = cycles - Math.floor(cycles);
     walk.at(from + part * walk.cycle);
-    // On the spot: the steady part of the way is taken off.
-    const off = walk.start.clone().addScaledVector(walk.way, part).setY(0);
+    // On the spot: the steady part of the travel is taken off.
+    const off = walk.start.clone().addScaledVector(walk.travel, part).setY(0);
     walk.scene.position.set(-off.x, 0, -off.z);
-    const gone = part * walk.way.length();
+    const gone = part * walk.travel.length();
     walk.marks.forEach((mark, k) => {
       mark.position.z = ((((k * walk.gap - gone) % (walk.marks.length * walk.gap)) +
         walk.marks.length * walk.gap) % (walk.marks.length * walk.gap)) - 0.95;

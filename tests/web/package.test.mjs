@@ -525,7 +525,7 @@ test('a scaled and turned scene gets the same style in its own units', () => {
   const b = new StyledMixer(panache, mixer, { humanBones });
   a.setStrength('proud', 1);
   b.setStrength('proud', 1);
-  const place = (root) => ['Skull', 'Wing_L_2', 'Stilt_R_3'].flatMap((name) => {
+  const positionsIn = (root) => ['Skull', 'Wing_L_2', 'Stilt_R_3'].flatMap((name) => {
     root.updateMatrixWorld(true);
     return [...root.getObjectByName(name).getWorldPosition(new three.Vector3())];
   });
@@ -533,10 +533,10 @@ test('a scaled and turned scene gets the same style in its own units', () => {
   for (let f = 0; f < 120; ++f) {
     a.update(1 / 60);
     b.update(1 / 60);
-    const [p, q] = [place(plain), place(scene)];
+    const [p, q] = [positionsIn(plain), positionsIn(scene)];
     p.forEach((x, i) => { largest = Math.max(largest, Math.abs(x - q[i])); });
     b.restore();
-    place(scene).forEach((x, i) => { changed = Math.max(changed, Math.abs(x - q[i])); });
+    positionsIn(scene).forEach((x, i) => { changed = Math.max(changed, Math.abs(x - q[i])); });
   }
   assert.ok(largest < 0.002, `${largest} m apart`);  // Rounding of 32 bits, through networks.
   assert.ok(changed > 0.03, `${changed} m changed`);

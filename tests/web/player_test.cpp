@@ -36,11 +36,11 @@ float gate(float limit, float limit_of_remover, int removed) {
 }
 
 TEST(PlayerTest, a_motion_is_as_familiar_as_to_the_less_familiar_of_two_passes) {
-  constexpr float kWide = 1e6f, kNarrow = 1e-3f;
-  EXPECT_EQ(gate(kWide, kWide, 0), 1);
-  EXPECT_LT(gate(kNarrow, kWide, 0), 0.5f);
-  EXPECT_LT(gate(kWide, kNarrow, 0), 0.5f);
-  EXPECT_EQ(gate(kWide, kNarrow, -1), 1);  // Nothing is removed.
+  constexpr float kOpen = 1e6f, kClosed = 1e-3f;
+  EXPECT_EQ(gate(kOpen, kOpen, 0), 1);
+  EXPECT_LT(gate(kClosed, kOpen, 0), 0.5f);
+  EXPECT_LT(gate(kOpen, kClosed, 0), 0.5f);
+  EXPECT_EQ(gate(kOpen, kClosed, -1), 1);  // Nothing is removed.
 }
 
 // There are more jumps than are remembered.

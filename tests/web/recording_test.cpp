@@ -17,8 +17,8 @@ TEST(RecordingTest, keeps_the_last_seconds_at_an_even_rate) {
   EXPECT_EQ(recording.clip(50, 0.5).frames, 26);
   // 1.2 m/s, of which each frame takes a hundredth of a second: a metre and a fifth in the last
   // second, to the unevenness of a frame.
-  const Vec3 way = out.pose(50).translations[0] - out.pose(0).translations[0];
-  EXPECT_NEAR(way.z, 1.2f, 0.012f);
+  const Vec3 travel = out.pose(50).translations[0] - out.pose(0).translations[0];
+  EXPECT_NEAR(travel.z, 1.2f, 0.012f);
 }
 
 }  // namespace

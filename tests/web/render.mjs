@@ -67,14 +67,14 @@ const camera = new THREE.PerspectiveCamera(40, size.width / size.height, reach /
 camera.position.copy(middle).add(new THREE.Vector3(0.6, 0.35, 1).setLength(1.35 * reach));
 camera.lookAt(middle);
 renderer.render(scene, camera);
-const places = {};
+const positions = {};
 gltf.scene.traverse((o) => {
-  places[o.name] = o.getWorldPosition(new THREE.Vector3()).toArray();
+  positions[o.name] = o.getWorldPosition(new THREE.Vector3()).toArray();
 });
 window.done = {
   clips: clips.map((c) => c.name),
   box: [box.min.toArray(), box.max.toArray()],
-  places,
+  places: positions,
 };
 </script>`;
 

@@ -55,7 +55,7 @@ class Plan:
 
     def __init__(self, armature, joints):
         self.joints = joints
-        self.place = {joint.bone: i for i, joint in enumerate(joints) if joint.bone}
+        self.index = {joint.bone: i for i, joint in enumerate(joints) if joint.bone}
         self.direct = []  # Bones that are set directly, parents first.
         self.moves = []   # Follow, Lead, Knee or Pole, in order of evaluation.
         self.notes = []
@@ -115,7 +115,7 @@ class Plan:
 
     def _plan_rigify(self, bones):
         def add(control, joint, kind=Follow, *rest):
-            if control in bones and 'ORG-' + joint in self.place:
+            if control in bones and 'ORG-' + joint in self.index:
                 self.moves.append(kind(control, 'ORG-' + joint, *rest))
         add('torso', 'spine')
         for control, joint in _RIGIFY_SPINE:
@@ -143,8 +143,8 @@ class Plan:
 
 
 def _rigid(pose):
-    turn, place = pose
-    return Matrix.Translation(place) @ turn.to_matrix().to_4x4()
+    turn, position = pose
+    return Matrix.Translation(position) @ turn.to_matrix().to_4x4()
 
 
 class Solver:
@@ -186,7 +186,7 @@ class Solver:
                 self._approach(lambda: self._turn_knee(move, goal))
             else:
                 self.context.view_layer.update()
-                self._place(move, before[move.control], current, goal)
+                self._set(move, before[move.control], current, goal)
 
     def _approach(self, turn):
         """Calls turn() until the remaining error is small or stops shrinking: a control of several
@@ -212,22 +212,22 @@ class Solver:
         if now is None:
             return None
         moved = to_armature @ _rigid(pose)
-        place, turn, _ = moved.decompose()
-        return Matrix.LocRotScale(place, turn, now.to_scale())
+        position, turn, _ = moved.decompose()
+        return Matrix.LocRotScale(position, turn, now.to_scale())
 
     def _put_object(self, wanted):
-        turn, place = wanted[0]
+        turn, position = wanted[0]
         now, now_turn, scale = self.armature.matrix_world.decompose()
-        if (place - now).length < 1e-6 and turn.rotation_difference(now_turn).angle < 1e-6:
+        if (position - now).length < 1e-6 and turn.rotation_difference(now_turn).angle < 1e-6:
             return
-        self.armature.matrix_world = Matrix.LocRotScale(place, turn, scale)
+        self.armature.matrix_world = Matrix.LocRotScale(position, turn, scale)
 
     def _put_direct(self, goal):
         for name in self.plan.direct:
             bone = self._bones()[name]
-            at = self.plan.place[name]
+            at = self.plan.index[name]
             if bone.parent:
-                above = goal[self.plan.place[bone.parent.name]]
+                above = goal[self.plan.index[bone.parent.name]]
                 basis = bone.bone.convert_local_to_pose(
                     goal[at], bone.bone.matrix_local, parent_matrix=above,
                     parent_matrix_local=bone.parent.bone.matrix_local, invert=True)
@@ -236,53 +236,53 @@ class Solver:
                                                         invert=True)
             _set_basis(bone, basis)
 
-    def _place(self, move, before, current, goal):
+    def _set(self, move, before, current, goal):
         if isinstance(move, Pole):
-            after = self._pole_place(move, before, current, goal)
+            after = self._pole_position(move, before, current, goal)
         else:
-            at = self.plan.place[move.joint]
+            at = self.plan.index[move.joint]
             after = goal[at] @ current[at].inverted() @ before
         _set_matrix(self._bones()[move.control], after)
 
     # These two return the error before the move, radians and metres.
     def _lead(self, move, goal):
         bone = self._bones()[move.control]
-        at = self.plan.place[move.joint]
+        at = self.plan.index[move.joint]
         now = self._current()[at]
         turn = goal[at].to_quaternion() @ now.to_quaternion().inverted()
         shift = goal[at].translation - now.translation
-        place, old, scale = bone.matrix.decompose()
+        position, old, scale = bone.matrix.decompose()
         if move.moves:
             # It rotates the joint about another point, so half a step is safer.
-            place = place + 0.7 * shift
-        _set_matrix(bone, Matrix.LocRotScale(place, turn @ old, scale), stays=not move.moves)
+            position = position + 0.7 * shift
+        _set_matrix(bone, Matrix.LocRotScale(position, turn @ old, scale), stays=not move.moves)
         return max(abs(_signed(turn.angle)), shift.length if move.moves else 0)
 
     def _turn_knee(self, move, goal):
         bone = self._bones()[move.control]
-        places = [self.plan.place[name] for name in move.joints]
+        indices = [self.plan.index[name] for name in move.joints]
         now = self._current()
-        old = _bend_frame(*[now[i].translation for i in places])
-        new = _bend_frame(*[goal[i].translation for i in places])
+        old = _bend_frame(*[now[i].translation for i in indices])
+        new = _bend_frame(*[goal[i].translation for i in indices])
         if old is None or new is None:
             return 0
         along, bend = new.col[0].to_3d(), new.col[1].to_3d()
         before = old.col[1].to_3d()
         before = (before - along * before.dot(along)).normalized()
         angle = math.atan2(before.cross(bend).dot(along), before.dot(bend))
-        place, turn, scale = bone.matrix.decompose()
+        position, turn, scale = bone.matrix.decompose()
         turn = Quaternion(along, angle) @ turn
-        _set_matrix(bone, Matrix.LocRotScale(place, turn, scale), stays=True)
+        _set_matrix(bone, Matrix.LocRotScale(position, turn, scale), stays=True)
         return abs(angle)
 
     # The pole keeps its position relative to the plane of hip, knee and ankle.
-    def _pole_place(self, move, before, current, goal):
-        places = [self.plan.place[name] for name in move.joints]
-        old = _bend_frame(*[current[i].translation for i in places])
-        new = _bend_frame(*[goal[i].translation for i in places])
+    def _pole_position(self, move, before, current, goal):
+        indices = [self.plan.index[name] for name in move.joints]
+        old = _bend_frame(*[current[i].translation for i in indices])
+        new = _bend_frame(*[goal[i].translation for i in indices])
         if old is None or new is None:
             # A straight limb has no direction: the pole follows its upper part.
-            old, new = current[places[0]], goal[places[0]]
+            old, new = current[indices[0]], goal[indices[0]]
         return Matrix.Translation(new @ old.inverted() @ before.translation -
                                   before.translation) @ before
 
@@ -300,8 +300,8 @@ def _bend_frame(root, middle, end):
 
 def _set_basis(bone, basis):
     """Sets rotation and location; styles never change scale."""
-    place, turn, _ = basis.decompose()
-    bone.location = place
+    position, turn, _ = basis.decompose()
+    bone.location = position
     set_rotation(bone, turn)
 
 
@@ -311,11 +311,11 @@ def _signed(angle):
 
 def _set_matrix(bone, matrix, stays=False):
     """Sets the bone to `matrix` without changing its scale; only rotates it if it `stays`."""
-    place, scale = tuple(bone.location), tuple(bone.scale)
+    position, scale = tuple(bone.location), tuple(bone.scale)
     bone.matrix = matrix
     bone.scale = scale
     if stays:
-        bone.location = place
+        bone.location = position
 
 
 def rotation_property(target):

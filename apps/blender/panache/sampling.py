@@ -41,20 +41,20 @@ class Joint:
 def joints_of(armature):
     """Joints for the object and then its bones, parents first."""
     joints = [Joint(armature.name, -1, None)]
-    places = {None: 0}
+    indices = {None: 0}
     if is_rigify(armature):
         for name, parent in RIGIFY_PARENTS.items():
             bone = 'ORG-' + name
             if bone not in armature.data.bones:
                 continue
-            while parent is not None and parent not in places:
+            while parent is not None and parent not in indices:
                 parent = RIGIFY_PARENTS[parent]
-            places[name] = len(joints)
-            joints.append(Joint(name, places[parent], bone))
+            indices[name] = len(joints)
+            joints.append(Joint(name, indices[parent], bone))
         return joints
     for bone in armature.data.bones:  # Blender lists parents first.
-        places[bone.name] = len(joints)
-        joints.append(Joint(bone.name, places[bone.parent.name if bone.parent else None],
+        indices[bone.name] = len(joints)
+        joints.append(Joint(bone.name, indices[bone.parent.name if bone.parent else None],
                             bone.name))
     return joints
 
@@ -72,13 +72,13 @@ def _local(matrices, joints):
     """Rotations x y z w and translations relative to the parents, metres, without scale."""
     parts = [matrix.decompose() for matrix in matrices]
     rotations, translations = [], []
-    for joint, (place, turn, _) in zip(joints, parts):
+    for joint, (position, turn, _) in zip(joints, parts):
         if joint.parent >= 0:
             above, above_turn, _ = parts[joint.parent]
             back = above_turn.conjugated()
-            turn, place = back @ turn, back @ (place - above)
+            turn, position = back @ turn, back @ (position - above)
         rotations.append((turn.x, turn.y, turn.z, turn.w))
-        translations.append(tuple(place))
+        translations.append(tuple(position))
     return rotations, translations
 
 
@@ -127,9 +127,9 @@ class Sampled:
             for frame in range(self.first, self.first + count):
                 yield (frame - self.first) / count
                 set_frame(scene, frame)
-                turns, places = _local(world_matrices(context, armature, self.joints), self.joints)
+                turns, positions = _local(world_matrices(context, armature, self.joints), self.joints)
                 rotations.append(turns)
-                translations.append(places)
+                translations.append(positions)
             set_frame(scene, self.first)
             rest = rest_joints(armature, self.joints)
         self.skeleton = library.Skeleton(
@@ -149,13 +149,13 @@ class Sampled:
     def world_pose(self, styled, frame):
         """[joints] (rotation, position) of a styled frame, world space, metres."""
         out = []
-        for joint, (x, y, z, w), place in zip(self.joints, styled.rotations[frame].tolist(),
+        for joint, (x, y, z, w), position in zip(self.joints, styled.rotations[frame].tolist(),
                                               styled.translations[frame].tolist()):
-            turn, place = Quaternion((w, x, y, z)), Vector(place)
+            turn, position = Quaternion((w, x, y, z)), Vector(position)
             if joint.parent >= 0:
                 above_turn, above = out[joint.parent]
-                turn, place = above_turn @ turn, above + above_turn @ place
-            out.append((turn, place))
+                turn, position = above_turn @ turn, above + above_turn @ position
+            out.append((turn, position))
         return out
 
 

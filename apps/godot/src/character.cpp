@@ -176,19 +176,19 @@ void Character::make_character(const Value& skeleton) {
   apply_shape();
 }
 
-int32_t Character::place_of(const std::string& style) const {
-  const int32_t place = panache_model_find_style(model_.get(), style.c_str());
-  if (place < 0) tell(panache_last_error());
-  return place;
+int32_t Character::index_of(const std::string& style) const {
+  const int32_t index = panache_model_find_style(model_.get(), style.c_str());
+  if (index < 0) tell(panache_last_error());
+  return index;
 }
 
 void Character::apply_strength(const std::string& style) const {
-  panache_character_set_strength(character_.get(), place_of(style),
+  panache_character_set_strength(character_.get(), index_of(style),
                                  static_cast<float>(strengths_.at(style)));
 }
 
 void Character::apply_side(const std::string& style) const {
-  panache_character_set_side(character_.get(), place_of(style),
+  panache_character_set_side(character_.get(), index_of(style),
                              static_cast<float>(sides_.at(style)));
 }
 

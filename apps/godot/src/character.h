@@ -49,7 +49,7 @@ class Character {
   void read_model();
   void make_character(const Value& skeleton);
   // The place of a style in the model; prints an error if it has none.
-  int32_t place_of(const std::string& style) const;
+  int32_t index_of(const std::string& style) const;
   void apply_strength(const std::string& style) const;
   void apply_side(const std::string& style) const;
   void apply_person();

@@ -50,11 +50,11 @@ internal sealed class HumanoidJoints {
     var human = new Dictionary<string, int>();
     foreach (HumanBodyBones bone in Bones) {  // VRM calls LeftHand "leftHand".
       string name = bone.ToString();
-      human[char.ToLowerInvariant(name[0]) + name.Substring(1)] = PlaceOf(animator, bone);
+      human[char.ToLowerInvariant(name[0]) + name.Substring(1)] = IndexOf(animator, bone);
     }
-    int upperChest = PlaceOf(animator, HumanBodyBones.UpperChest);
-    int chest = PlaceOf(animator, HumanBodyBones.Chest);
-    int spine = PlaceOf(animator, HumanBodyBones.Spine);
+    int upperChest = IndexOf(animator, HumanBodyBones.UpperChest);
+    int chest = IndexOf(animator, HumanBodyBones.Chest);
+    int spine = IndexOf(animator, HumanBodyBones.Spine);
     // Map the highest bone to the chest and the next one below to the spine.
     human["chest"] = upperChest >= 0 ? upperChest : chest >= 0 ? chest : spine;
     human["spine"] = upperChest >= 0 && chest >= 0 ? chest
@@ -108,22 +108,22 @@ internal sealed class HumanoidJoints {
     writtenHips = transforms[hips].localPosition;
   }
 
-  private int PlaceOf(Animator animator, HumanBodyBones bone) {
+  private int IndexOf(Animator animator, HumanBodyBones bone) {
     Transform t = animator.GetBoneTransform(bone);
     return t == null ? -1 : transforms.IndexOf(t);
   }
   private void Add(Transform t, int parent, HashSet<Transform> wanted, List<Joint> joints) {
-    int place = joints.Count;
+    int index = joints.Count;
     var joint = new Joint { Name = t.name, Parent = parent };
     transforms.Add(t);
     scales.Add(parent < 0 ? Vector3.one : t.parent.lossyScale);
     if (parent >= 0) {  // The rest pose is at the origin and faces +z.
       ToLibrary(t.localRotation, joint.Rotation, 0);
-      ToLibrary(Vector3.Scale(t.localPosition, scales[place]), joint.Translation, 0);
+      ToLibrary(Vector3.Scale(t.localPosition, scales[index]), joint.Translation, 0);
     }
     joints.Add(joint);
     for (int child = 0; child < t.childCount; ++child)
-      if (wanted.Contains(t.GetChild(child))) Add(t.GetChild(child), place, wanted, joints);
+      if (wanted.Contains(t.GetChild(child))) Add(t.GetChild(child), index, wanted, joints);
   }
 
   private static void ToLibrary(Quaternion q, float[] out4, int joint) {

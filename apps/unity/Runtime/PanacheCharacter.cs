@@ -90,7 +90,7 @@ public sealed class PanacheCharacter : MonoBehaviour {
   private Model read;
   private float[] wanted, set;            // Strength of each style of the model,
   private float[] wantedSides, setSides;  // and its side.
-  private readonly Dictionary<string, int> places =
+  private readonly Dictionary<string, int> styleIndices =
       new Dictionary<string, int>(StringComparer.OrdinalIgnoreCase);
   private readonly HashSet<string> unknown = new HashSet<string>();
   private Shape shaped;
@@ -151,8 +151,8 @@ public sealed class PanacheCharacter : MonoBehaviour {
       wantedSides = new float[read.Styles.Count];
       setSides = new float[read.Styles.Count];
       for (int i = 0; i < setSides.Length; ++i) setSides[i] = 1;
-      places.Clear();
-      for (int i = 0; i < read.Styles.Count; ++i) places[read.Styles[i]] = i;
+      styleIndices.Clear();
+      for (int i = 0; i < read.Styles.Count; ++i) styleIndices[read.Styles[i]] = i;
       unknown.Clear();
     });
   }
@@ -177,9 +177,9 @@ public sealed class PanacheCharacter : MonoBehaviour {
     for (int i = 0; i < wantedSides.Length; ++i) wantedSides[i] = 1;
     foreach (StyleStrength entry in styles) {
       if (string.IsNullOrEmpty(entry.style)) continue;
-      if (places.TryGetValue(entry.style, out int place)) {
-        wanted[place] += entry.strength;
-        wantedSides[place] = entry.side;
+      if (styleIndices.TryGetValue(entry.style, out int index)) {
+        wanted[index] += entry.strength;
+        wantedSides[index] = entry.side;
       } else if (unknown.Add(entry.style)) {
         TellUnknown(entry.style);
       }

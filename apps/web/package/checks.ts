@@ -72,10 +72,10 @@ export function checkJoints(joints: readonly Joint[]): void {
     if (typeof joint?.name !== 'string') {
       throw unexpected(`joint ${i}: name`, 'a string', joint?.name);
     }
-    const place = `joint ${i} '${joint.name}'`;
-    checkInteger(joint.parent, `${place}: parent`);
-    checkNumbers(joint.rotation, 4, `${place}: rotation`, 'x y z w');
-    checkNumbers(joint.translation, 3, `${place}: translation`, 'x y z');
+    const which = `joint ${i} '${joint.name}'`;
+    checkInteger(joint.parent, `${which}: parent`);
+    checkNumbers(joint.rotation, 4, `${which}: rotation`, 'x y z w');
+    checkNumbers(joint.translation, 3, `${which}: translation`, 'x y z');
   });
 }
 

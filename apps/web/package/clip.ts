@@ -98,7 +98,7 @@ export function stylizeClip(panache: Panache, skeleton: Skeleton, clip: Clip, st
     const from = writeClip(arena, panache, skeleton, clip);
     const tracks = Object.entries(strengths).map(
       ([name, strength]) => writeTrack(arena, panache, name, strength));
-    const how = arena.write(kStylizeOptions, {
+    const written = arena.write(kStylizeOptions, {
       ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
       shape: writeShape(arena, shape), loop: kLoops.indexOf(loop),
       ...removalOf(panache, remover, remove), sides: writeSides(arena, panache, sides),
@@ -106,7 +106,7 @@ export function stylizeClip(panache: Panache, skeleton: Skeleton, clip: Clip, st
     });
     const list = arena.array(kStrengthTrack, tracks);
     return arena.create((out) => wasm.panache_stylize_clip(
-      panache._model(), from, list, tracks.length, how, out));
+      panache._model(), from, list, tracks.length, written, out));
   });
   const frames = wasm.panache_styled_clip_frame_count(styled);
   const floats = (at: number, count: number) => module.copy(Float32Array, at, count * frames);

@@ -17,7 +17,7 @@ const turn = (q: number[], [x, y, z]: number[]) =>
   multiply(multiply(q, [x, y, z, 0]), inverse(q)).slice(0, 3);
 // In the plane x = 0.
 const mirroredTurn = ([x, y, z, w]: number[]) => [x, -y, -z, w];
-const mirroredPlace = ([x, y, z]: number[]) => [-x, y, z];
+const mirroredPosition = ([x, y, z]: number[]) => [-x, y, z];
 
 // The name of the joint on the other side; null if the name has no side.
 function twinName(name: string) {
@@ -100,11 +100,11 @@ export class PoseFilter {
       return multiply(mirroredTurn(multiply(world[twin], inverse(rest[twin]))), rest[j]);
     });
     const moved = joints.map(({ parent }, j) => {
-      const twin = this.#twins[j], place = at(translations, twin, 3);
-      const far = place.some((v, k) => Math.abs(v - joints[twin].translation[k]) > 1e-6);
+      const twin = this.#twins[j], position = at(translations, twin, 3);
+      const far = position.some((v, k) => Math.abs(v - joints[twin].translation[k]) > 1e-6);
       if (!far) return at(translations, j, 3);  // Its place in the parent does not change.
       const above = joints[twin].parent;
-      const seen = mirroredPlace(above < 0 ? place : turn(world[above], place));
+      const seen = mirroredPosition(above < 0 ? position : turn(world[above], position));
       return parent < 0 ? seen : turn(inverse(turned[parent]), seen);
     });
     joints.forEach(({ parent }, j) => {

@@ -21,7 +21,7 @@ type Values<Name extends string> = Partial<Record<Name, number | boolean | Array
 interface Struct<Name extends string> {
   size: number;
   initial: Values<Name>;
-  places: Record<Name, readonly [at: number, type: Kind, count: number]>;
+  layout: Record<Name, readonly [at: number, type: Kind, count: number]>;
 }
 
 export class Module {
@@ -95,11 +95,11 @@ export class Arena {
   text(text: string): number { return this.copy(new TextEncoder().encode(text + '\0')); }
 
   /** Writes `values`, and initial values of others, to the struct at `at`; by default a new one. */
-  write<Name extends string>({ places, size, initial }: Struct<Name>, values: Values<Name> = {},
+  write<Name extends string>({ layout, size, initial }: Struct<Name>, values: Values<Name> = {},
     at = this.zeros(size)): number {
     const view = new DataView(this.buffer, at, size);
     for (const [name, value] of Object.entries({ ...initial, ...values })) {
-      const [offset, type, count] = places[name as Name];
+      const [offset, type, count] = layout[name as Name];
       const numbers = (count === 1 ? [value] : value) as ArrayLike<number | boolean>;
       for (let i = 0; i < count; ++i) {
         view[`set${kAccess[type]}`](offset + i * sizeOf(type), +numbers[i], true);
@@ -114,9 +114,9 @@ export class Arena {
     return at;
   }
   /** Returns the values of a struct by name, as write() takes them. */
-  read<Name extends string>({ places, size }: Struct<Name>, at: number): Record<Name, number> {
+  read<Name extends string>({ layout, size }: Struct<Name>, at: number): Record<Name, number> {
     const view = new DataView(this.buffer, at, size);
-    return Object.fromEntries(Object.entries<Struct<Name>['places'][Name]>(places).map(
+    return Object.fromEntries(Object.entries<Struct<Name>['layout'][Name]>(layout).map(
       ([name, [offset, type, count]]) => {
         const numbers = Array.from({ length: count },
           (_, i) => view[`get${kAccess[type]}`](offset + i * sizeOf(type), true));

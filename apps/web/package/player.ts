@@ -235,14 +235,14 @@ export class Player extends Styled {
     return module.use((arena) => {
       const at = arena.allocate(40);
       this._wasm.panache_page_player_body(this._player, coarse, at);
-      const [vertices, corners, ...places] = module.words(at, 10);
-      const floats = (i: number, count: number) => module.copy(Float32Array, places[i], count);
-      const bytes = (i: number, count: number) => module.copy(Uint8Array, places[i], count);
+      const [vertices, corners, ...addresses] = module.words(at, 10);
+      const floats = (i: number, count: number) => module.copy(Float32Array, addresses[i], count);
+      const bytes = (i: number, count: number) => module.copy(Uint8Array, addresses[i], count);
       return {
         bindPositions: floats(0, 3 * kHumanJoints), bindRotations: floats(1, 4 * kHumanJoints),
         positions: floats(2, 3 * vertices), normals: floats(3, 3 * vertices),
         joints: bytes(4, 4 * vertices), weights: bytes(5, 4 * vertices), accents: bytes(6, vertices),
-        triangles: module.copy(Uint16Array, places[7], corners),
+        triangles: module.copy(Uint16Array, addresses[7], corners),
       };
     });
   }

@@ -66,11 +66,11 @@ export class StyledBones {
       translation: [...this.#pose.translations.subarray(3 * i, 3 * i + 3)],
     }));
     const humanJoints = Object.fromEntries(Object.entries(humanBones).map(([human, name]) => {
-      const place = name === null ? -1 : this.#bones.findIndex((bone) => bone.name === name);
-      if (place < 0 && name !== null) {
+      const bone = name === null ? -1 : this.#bones.findIndex((bone) => bone.name === name);
+      if (bone < 0 && name !== null) {
         throw new PanacheError(`humanBones.${human}: there is no bone '${name}'`);
       }
-      return [human, place];
+      return [human, bone];
     }));
     this.#skeleton = panache.createSkeleton(joints, {
       humanJoints, ...(metresPerUnit !== undefined && { metresPerUnit }),

@@ -9,7 +9,7 @@ export type Angle = (typeof kAngles)[number];
 // This angle shows both the lean of a style and the swing of arms and legs.
 const kThreeQuarters = Math.PI / 4;
 /** Azimuth from the front of the body to its left, and elevation, radians. */
-const kPlaces: Record<Angle, [number, number]> = {
+const kDirections: Record<Angle, [number, number]> = {
   face: [kThreeQuarters, 0.14], front: [0, 0.05], side: [Math.PI / 2, 0.05], top: [0, 1.42],
   orbit: [kThreeQuarters, 0.14],
 };
@@ -44,7 +44,7 @@ export class Camera {
   look(angle: Angle, parts: Float32Array, box: THREE.Box3) {
     const facing = new THREE.Vector3(0, 0, 1)
       .applyQuaternion(new THREE.Quaternion().fromArray(parts, 3));
-    const [left, up] = kPlaces[angle];
+    const [left, up] = kDirections[angle];
     const ahead = Math.atan2(facing.x, facing.z) + left;
     const from = new THREE.Vector3(
       Math.sin(ahead) * Math.cos(up), Math.sin(up), Math.cos(ahead) * Math.cos(up));
@@ -65,10 +65,10 @@ export class Camera {
     const over = from.clone().cross(right);
     let distance = Math.max((kRoom * half.y) / kTan, 1.5 * around);
     for (let corner = 0; corner < 8; ++corner) {
-      const place = new THREE.Vector3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1)
-        .multiply(half);
+      const [x, y, z] = [1, 2, 4].map((bit) => (corner & bit ? 1 : -1));
+      const position = new THREE.Vector3(x, y, z).multiply(half);
       distance = Math.max(distance,
-        place.dot(from) + (kEdge * Math.abs(place.dot(over))) / kTan);
+        position.dot(from) + (kEdge * Math.abs(position.dot(over))) / kTan);
     }
     // For any side, as the user can orbit the camera.
     this.#width = Math.max(kSlimmest,
@@ -97,8 +97,8 @@ export class Camera {
   }
 
   /** Follows the body with a small lag. */
-  follow(place: THREE.Vector3, seconds: number) {
-    const step = place.clone().sub(this.followed);
+  follow(position: THREE.Vector3, seconds: number) {
+    const step = position.clone().sub(this.followed);
     const cut = reduced.matches || seconds === 0 || step.length() > 2;
     if (!cut) step.multiplyScalar(1 - Math.exp(-seconds / kLag));
     this.followed.add(step);

@@ -16,7 +16,7 @@ const kCreatedAtOnce = 3;   // In a frame, so that the view stays smooth.
 const kOutOfStep = 0.37;    // Seconds from one walker's start to the next one's, within a cycle.
 const kCycle = 1.1;         // Seconds.
 const kAverage = 0.05;      // Share of the newest frame in the times shown.
-const kWide = kInARow * kApart, kDeep = (kCount / kInARow) * kApart;
+const kWidth = kInARow * kApart, kDepth = (kCount / kInARow) * kApart;
 
 interface Member {
   player: Source['player'];
@@ -30,7 +30,7 @@ const wrapped = (value: number, period: number) => value - period * Math.round(v
 export class Crowd {
   readonly group = new THREE.Group();
   /** What there is room for, around the middle on the ground. */
-  readonly size = new THREE.Vector3(kWide, 1.8, kDeep);
+  readonly size = new THREE.Vector3(kWidth, 1.8, kDepth);
   #members: Member[] = [];
   #source: Source | null = null;
   #geometry: THREE.BufferGeometry | null = null;
@@ -87,8 +87,8 @@ export class Crowd {
       // A character that leaves on one side comes in on the other.
       const shift = slot.clone();
       const x = parts[0] + slot.x - middle.x, z = parts[2] + slot.z - middle.z;
-      shift.x += wrapped(x, kWide) - x;
-      shift.z += wrapped(z, kDeep) - z;
+      shift.x += wrapped(x, kWidth) - x;
+      shift.z += wrapped(z, kDepth) - z;
       body.pose(parts, shift);
     }
   }
@@ -101,7 +101,7 @@ export class Crowd {
     this.#geometry ??= bodyGeometry(mesh);
     const body = new Mannequin(this.#geometry, mesh, look);
     const slot = new THREE.Vector3((i % kInARow) * kApart, 0, Math.floor(i / kInARow) * kApart)
-      .sub(new THREE.Vector3((kWide - kApart) / 2, 0, (kDeep - kApart) / 2));
+      .sub(new THREE.Vector3((kWidth - kApart) / 2, 0, (kDepth - kApart) / 2));
     const member = { player, body, slot };
     this.#members.push(member);
     body.object.layers.mask = this.group.layers.mask;

@@ -52,7 +52,8 @@ export function saveBytes(bytes: BlobPart, name: string, type = 'application/oct
 }
 
 /** The position of a pointer in an element, 0 to 1 across and down. */
-export function placeIn(field: HTMLElement, { clientX, clientY }: PointerEvent): [number, number] {
+export function positionIn(field: HTMLElement,
+    { clientX, clientY }: PointerEvent): [number, number] {
   const box = field.getBoundingClientRect();
   return [(clientX - box.left) / box.width, (clientY - box.top) / box.height];
 }
@@ -61,10 +62,10 @@ export function listenToDrags(field: HTMLElement, move: (x: number, y: number) =
     end = () => {}) {
   field.addEventListener('pointerdown', (event) => {
     field.setPointerCapture(event.pointerId);
-    move(...placeIn(field, event));
+    move(...positionIn(field, event));
   });
   field.addEventListener('pointermove', (event) => {
-    if (field.hasPointerCapture(event.pointerId)) move(...placeIn(field, event));
+    if (field.hasPointerCapture(event.pointerId)) move(...positionIn(field, event));
   });
   for (const name of ['pointerup', 'pointercancel']) field.addEventListener(name, end);
 }

@@ -7,7 +7,7 @@ import { findCycle } from './cycle';
 import { colour } from './dom';
 import { freed } from './source';
 
-const kWide = 92, kHigh = 100;  // CSS pixels.
+const kCanvasWidth = 92, kCanvasHeight = 100;  // CSS pixels.
 const kWarmUp = 1.3;            // Seconds until a style is fully eased in.
 const kRecorded = 3;            // Seconds, at least one cycle of most styles.
 const kShortest = 0.7;          // Seconds of a cycle.
@@ -32,7 +32,7 @@ export function paintFigure(context: CanvasRenderingContext2D, width: number, he
   const scale = height / kHeight;
   const [cos, sin] = [Math.cos(kTurn), Math.sin(kTurn)];
   const [hipsX, , hipsZ] = joint('hips');
-  const place = (name: string): [number, number] => {
+  const positionOf = (name: string): [number, number] => {
     const [px, py, pz] = joint(name);
     const x = px - hipsX, z = pz - hipsZ;
     return [width / 2 + (x * cos + z * sin) * scale, height - (py + 0.06) * scale];
@@ -42,10 +42,10 @@ export function paintFigure(context: CanvasRenderingContext2D, width: number, he
     context.strokeStyle = colour(i < 2 ? 'soft' : near);
     context.lineWidth = thick * scale;
     context.beginPath();
-    for (const name of joints) context.lineTo(...place(name));
+    for (const name of joints) context.lineTo(...positionOf(name));
     context.stroke();
   });
-  const [x, y] = place('head'), [nx, ny] = place('neck');
+  const [x, y] = positionOf('head'), [nx, ny] = positionOf('neck');
   context.fillStyle = colour(near);
   context.beginPath();
   context.arc(x + (x - nx) * 0.7, y + (y - ny) * 0.7, 0.105 * scale, 0, 2 * Math.PI);
@@ -79,8 +79,8 @@ class Figure {
     this.canvas.className = 'figure';
     this.canvas.setAttribute('aria-hidden', 'true');
     const ratio = Math.min(2, Math.max(1.5, devicePixelRatio));
-    this.canvas.width = kWide * ratio;
-    this.canvas.height = kHigh * ratio;
+    this.canvas.width = kCanvasWidth * ratio;
+    this.canvas.height = kCanvasHeight * ratio;
   }
 
   get isRecorded() { return this.#frames.length > 0; }

@@ -14,10 +14,10 @@ function lineTexture(sharp: boolean, equal: boolean): THREE.Texture {
   const context = canvas.getContext('2d')!;
   for (let i = 0; i <= 4; ++i) {
     const edge = i % 4 === 0 && !equal;
-    const at = (i * kTile) / 4, wide = edge ? 5 : equal ? 2.5 : 1.5;
+    const at = (i * kTile) / 4, thickness = edge ? 5 : equal ? 2.5 : 1.5;
     context.fillStyle = edge ? '#bfbfbf' : equal ? '#858585' : '#5a5a5a';
-    context.fillRect(at - wide / 2, 0, wide, kTile);
-    context.fillRect(0, at - wide / 2, kTile, wide);
+    context.fillRect(at - thickness / 2, 0, thickness, kTile);
+    context.fillRect(0, at - thickness / 2, kTile, thickness);
   }
   const texture = new THREE.CanvasTexture(canvas);
   texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
@@ -107,25 +107,25 @@ export class Ground {
     uniforms.line.value.set(line).convertLinearToSRGB();
   }
 
-  /** Drifts the grid over a loop in which the body travels `way`, so that the grid matches at both
-   * ends without a jump. `share` of the loop has passed. */
-  close(way: THREE.Vector2, share: number) {
+  /** Drifts the grid over a loop in which the body moves by `travel`, so that the grid matches at
+   * both ends without a jump. `share` of the loop has passed. */
+  close(travel: THREE.Vector2, share: number) {
     const drift = this.#grid.material.uniforms.drift.value as THREE.Vector2;
-    drift.copy(way).multiplyScalar(4).round().divideScalar(4).sub(way).multiplyScalar(share);
+    drift.copy(travel).multiplyScalar(4).round().divideScalar(4).sub(travel).multiplyScalar(share);
   }
 
   /** Keeps the ground under the body without moving the lines. `feet` are the toes; null: no body
    * stands there. */
-  follow(place: THREE.Vector3, feet: readonly THREE.Vector3[] | null) {
+  follow(position: THREE.Vector3, feet: readonly THREE.Vector3[] | null) {
     this.#shadow.visible = !this.spots && feet !== null;
     this.#spots.forEach((spot, i) => {
-      const over = i === 0 ? place : feet?.[i - 1];
+      const over = i === 0 ? position : feet?.[i - 1];
       spot.visible = this.spots && feet !== null && over !== undefined;
       if (!spot.visible || !over) return;
-      spot.position.set(over.x - place.x, 0.002 + 0.001 * i, over.z - place.z);
+      spot.position.set(over.x - position.x, 0.002 + 0.001 * i, over.z - position.z);
       const near = i === 0 ? 0.6 : Math.exp(-6 * Math.max(0, over.y - 0.03));
       spot.material.uniforms.strength.value = 0.5 * near;
     });
-    this.group.position.set(place.x, 0, place.z);
+    this.group.position.set(position.x, 0, position.z);
   }
 }

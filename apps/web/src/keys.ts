@@ -13,7 +13,7 @@ export function bounded(value: number, min: number, max: number, otherwise: numb
 /** Seconds after the first frame, rounded to the millisecond, and a strength. */
 export type Key = readonly [seconds: number, strength: number];
 
-const kSamePlace = 0.004;  // Seconds: less than half of any frame.
+const kSameTime = 0.004;  // Seconds: less than half of any frame.
 
 const atMillisecond = (seconds: number) => Math.round(Math.max(0, seconds) * 1000) / 1000;
 const strengthOf = (value: number) => bounded(value, kMin, kMax, 0);
@@ -31,7 +31,7 @@ export function strengthAt(keys: readonly Key[], seconds: number): number {
 export function withKey(keys: readonly Key[], seconds: number, strength: number):
     { keys: Key[]; index: number } {
   const time = atMillisecond(seconds);
-  const others = keys.filter(([t]) => Math.abs(t - time) > kSamePlace);
+  const others = keys.filter(([t]) => Math.abs(t - time) > kSameTime);
   const index = others.filter(([t]) => t < time).length;
   const added: Key = [time, strengthOf(strength)];
   return { keys: [...others.slice(0, index), added, ...others.slice(index)], index };
@@ -40,8 +40,8 @@ export function withKey(keys: readonly Key[], seconds: number, strength: number)
 /** Moves a key, at most to its neighbours or the end. */
 export function moved(keys: readonly Key[], index: number, seconds: number, strength: number,
     end: number): Key[] {
-  const min = index > 0 ? keys[index - 1][0] + 2 * kSamePlace : 0;
-  const max = index + 1 < keys.length ? keys[index + 1][0] - 2 * kSamePlace : end;
+  const min = index > 0 ? keys[index - 1][0] + 2 * kSameTime : 0;
+  const max = index + 1 < keys.length ? keys[index + 1][0] - 2 * kSameTime : end;
   const time = atMillisecond(Math.max(min, Math.min(max, seconds)));
   return keys.map((key, i) => (i === index ? [time, strengthOf(strength)] as const : key));
 }

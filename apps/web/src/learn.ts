@@ -138,10 +138,10 @@ export class Learn {
 
   /** Takes dropped clips: into the slot under the pointer, or else an empty one. */
   take(files: File[], target: EventTarget | null) {
-    const place = target instanceof Element ? target.closest<HTMLElement>('[data-slot]') : null;
+    const slot = target instanceof Element ? target.closest<HTMLElement>('[data-slot]') : null;
     const { neutral, styled } = this.#slots;
     const slots = files.length > 1 ? [neutral, styled]
-      : [place ? this.#slots[place.dataset.slot as Role]
+      : [slot ? this.#slots[slot.dataset.slot as Role]
         : styled.file && !neutral.file ? neutral : styled];
     this.#attempt(async () => {
       for (const [i, slot] of slots.entries()) await slot.open(files[i]);

@@ -2,7 +2,7 @@
 
 import { humanJoints, type Panache } from '../package/index.js';
 import { find } from './dom';
-import { Stage, type Seen } from './stage';
+import { Stage, type Showable } from './stage';
 
 const kAskEvery = 500;  // Milliseconds, until a sender is recognised.
 const kNumbers = 7 * humanJoints.length;  // Per body, see Player.parts().
@@ -52,13 +52,13 @@ export class LiveView {
       ended = true;
       events.close();
     });
-    const shown: Seen['player'] = {
+    const shown: Showable['player'] = {
       body: player.body, coarseBody: player.coarseBody, contacts: [0, 0],
       parts: (which) => this.poses?.subarray(...which === 'input'
         ? [0, kNumbers] as const : [kNumbers, 2 * kNumbers] as const) ?? player.parts(which),
       pose: () => new Float32Array(),
     };
-    const source: Seen = { player: shown, joints: 0, own: null };
+    const source: Showable = { player: shown, joints: 0, own: null };
     this.#stage.show(source);
     let first = true;
     const frame = (now: number) => {

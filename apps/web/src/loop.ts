@@ -65,15 +65,15 @@ export function clipLoop(of: ClipSource, bytes: ArrayBuffer,
 
 /** The hips' positions on the ground, and all joint positions relative to them, per body. */
 function posesOf({ player }: Source, seen: readonly ('input' | 'styled')[]) {
-  const place: number[] = [], pose: number[] = [];
+  const positions: number[] = [], pose: number[] = [];
   for (const which of seen) {
     const parts = player.parts(which);
-    place.push(parts[0], parts[2]);
+    positions.push(parts[0], parts[2]);
     for (let j = 0; j < humanJoints.length; ++j) {
       pose.push(parts[7 * j] - parts[0], parts[7 * j + 1], parts[7 * j + 2] - parts[2]);
     }
   }
-  return { place, pose: new Float32Array(pose) };
+  return { positions, pose: new Float32Array(pose) };
 }
 
 /** Returns the frames [first, end) of the loop, and each body's travel in it, metres. */
@@ -87,8 +87,8 @@ async function plan(motion: LoopMotion, seen: readonly ('input' | 'styled')[]) {
   const cycle = motion.cyclic
     ? findCycle(all.map(({ pose }) => pose), Math.round(kShortest / kLoopStep)) : null;
   const [first, end] = cycle ?? [0, all.length];
-  const way = cycle ? all[end].place.map((at, k) => at - all[first].place[k]) : [];
-  return { first, end, way };
+  const travel = cycle ? all[end].positions.map((at, k) => at - all[first].positions[k]) : [];
+  return { first, end, travel };
 }
 
 function free(source: Source) {
@@ -103,7 +103,7 @@ const breathe = () => new Promise((next) => setTimeout(next));
 export async function makeLoop(stage: Stage, motion: LoopMotion, width: number, height: number,
     onProgress: (share: number) => boolean): Promise<Uint8Array | null> {
   const { applyPalette, GIFEncoder, quantize } = await late('gif');
-  const { first, end, way } = await plan(motion, stage.seenBodies);
+  const { first, end, travel } = await plan(motion, stage.seenBodies);
   const { source, advance } = await motion.open();
   let studio: ReturnType<Stage['studio']> | undefined;
   const canvas = document.createElement('canvas');
@@ -115,7 +115,8 @@ export async function makeLoop(stage: Stage, motion: LoopMotion, width: number, 
     studio = stage.studio(source);
     for (let i = 0; i < first; ++i) advance();
     for (let i = first; i < end; ++i) {
-      studio.drawStill(source, kSharper * width, kSharper * height, way, (i - first) / (end - first));
+      const share = (i - first) / (end - first);
+      studio.drawStill(source, kSharper * width, kSharper * height, travel, share);
       context.drawImage(studio.canvas, 0, 0, width, height);
       const { data } = context.getImageData(0, 0, width, height);
       const delay = 1000 * kLoopStep;

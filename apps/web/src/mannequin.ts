@@ -102,12 +102,12 @@ export class Mannequin {
 
   /** Takes a pose from Player.parts(), moved by `shift`. */
   pose(parts: Float32Array, shift: THREE.Vector3) {
-    const place = new THREE.Vector3(), turn = new THREE.Quaternion();
+    const position = new THREE.Vector3(), turn = new THREE.Quaternion();
     const one = new THREE.Vector3(1, 1, 1);
     this.#bones.forEach((bone, joint) => {
-      place.fromArray(parts, kNumbers * joint).add(shift);
+      position.fromArray(parts, kNumbers * joint).add(shift);
       turn.fromArray(parts, kNumbers * joint + 3);
-      bone.matrixWorld.compose(place, turn, one);
+      bone.matrixWorld.compose(position, turn, one);
     });
   }
 

@@ -34,11 +34,11 @@ class Ribbon {
     this.#points = [];
   }
 
-  add(place: THREE.Vector3) {
+  add(position: THREE.Vector3) {
     const last = this.#points[0];
-    if (last && last.distanceTo(place) > 1) this.clear();
-    if (last && last.distanceTo(place) < kGap) return;
-    this.#points.unshift(place.clone());
+    if (last && last.distanceTo(position) > 1) this.clear();
+    if (last && last.distanceTo(position) < kGap) return;
+    this.#points.unshift(position.clone());
     this.#points.length = Math.min(this.#points.length, kSamples);
   }
 

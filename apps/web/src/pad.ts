@@ -14,7 +14,7 @@ export function shares(x: number, y: number): [number, number, number, number] {
 }
 
 /** The position of these strengths on the pad; the middle if they are all 0. */
-export function place(strengths: readonly number[]): { x: number; y: number } {
+export function positionOf(strengths: readonly number[]): { x: number; y: number } {
   const [a, b, c, d] = strengths.map((s) => Math.max(0, s));
   const sum = a + b + c + d;
   if (sum <= 0) return { x: 0.5, y: 0.5 };
@@ -68,7 +68,7 @@ export function buildPad(store: Store, first: readonly string[]) {
     menu.replaceChildren(...styleOptions(styles, corners[i]));
   });
   store.listen(({ styles: strengths }) => {
-    Object.assign(at, place(corners.map((corner) => strengths[corner] ?? 0)));
+    Object.assign(at, positionOf(corners.map((corner) => strengths[corner] ?? 0)));
     knob.style.left = `${at.x * 100}%`;
     knob.style.top = `${at.y * 100}%`;
     const said = corners.map((corner) => `${corner} ${(strengths[corner] ?? 0).toFixed(2)}`);

@@ -30,13 +30,13 @@ function askSize(what: SizeDialog) {
     'aria-label': title, min: kMin, max: what.largest, step: 1, required: true });
   const width = field('picture-width', 'Width, pixels');
   const height = field('picture-height', 'Height, pixels');
-  const set = (wide: number, high: number) => {
-    width.value = String(wide);
-    height.value = String(high);
+  const set = (across: number, down: number) => {
+    width.value = String(across);
+    height.value = String(down);
   };
-  const [wide, high] = what.seen;
-  const smaller = Math.min(1, what.largest / Math.max(wide, high));
-  const seen = () => set(Math.round(smaller * wide), Math.round(smaller * high));
+  const [across, down] = what.seen;
+  const smaller = Math.min(1, what.largest / Math.max(across, down));
+  const seen = () => set(Math.round(smaller * across), Math.round(smaller * down));
   const form = element('form', { method: 'dialog' },
     element('div', { class: 'chips' }, button('As seen', seen),
       ...what.sizes.filter((size) => Math.max(...size) <= what.largest)

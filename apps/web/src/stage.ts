@@ -21,7 +21,7 @@ const kOnions = 3;            // Number of past poses.
 const kOnionSeconds = 0.3;    // Time between them.
 
 /** The motion and looks to show: the part of a source that the stage needs. */
-export interface Seen {
+export interface Showable {
   readonly player: Pick<Walk, 'body' | 'coarseBody' | 'contacts' | 'parts' | 'pose'>;
   readonly joints: number;
   readonly own: readonly [SkinnedCharacter, SkinnedCharacter] | null;
@@ -30,7 +30,7 @@ export interface Seen {
 const kStyledLook: Look = { body: '#efe6d8', accent: '#d9622b' };
 
 interface Stand {
-  place: THREE.Vector3;
+  position: THREE.Vector3;
   toes: THREE.Vector3[];
 }
 
@@ -83,8 +83,8 @@ export class Stage {
   #marks = new Marks();
   #bodies: { input: Body; styled: Body; skinned: boolean } | null = null;
   /** The position of each body on the ground, and of its toes. */
-  #input: Stand = { place: new THREE.Vector3(), toes: [] };
-  #styled: Stand = { place: new THREE.Vector3(), toes: [] };
+  #input: Stand = { position: new THREE.Vector3(), toes: [] };
+  #styled: Stand = { position: new THREE.Vector3(), toes: [] };
   #geometry: THREE.BufferGeometry | null = null;
   #onions: Mannequin[] = [];
   #past: { time: number; parts: Float32Array }[] = [];
@@ -132,25 +132,25 @@ export class Stage {
   }
 
   /** Shows the bodies of another source: its own meshes if it has any, else mannequins. */
-  show(source: Seen) {
+  show(source: Showable) {
     const { player, own } = source;
     this.#freeBodies();
     const body = this.#fast ? player.body : player.coarseBody;
     const geometry = (this.#geometry = bodyGeometry(body));
-    const place = (object: THREE.Object3D, layer: number) =>
+    const add = (object: THREE.Object3D, layer: number) =>
       this.#scene.add(onLayer(object, layer));
     const inputLook = { body: '#a9b9cc', accent: '#4d6480' };
     const styledLook = kStyledLook;
     this.#onions = Array.from({ length: kOnions }, () => new Mannequin(geometry, body, styledLook));
     this.#onions.forEach((onion, i) => {
-      place(onion.object, kStyledLayer);
+      add(onion.object, kStyledLayer);
       onion.opacity = 0.4 - 0.1 * i;
     });
     const [input, styled] = own ?? [new Mannequin(geometry, body, inputLook),
       new Mannequin(geometry, body, styledLook)];
     this.#bodies = { input, styled, skinned: own !== null };
-    place(input.object, kInputLayer);
-    place(styled.object, kStyledLayer);
+    add(input.object, kInputLayer);
+    add(styled.object, kStyledLayer);
     this.#marks.clear();
     this.#past = [];
     this.update(source, true, 0);
@@ -166,21 +166,21 @@ export class Stage {
   get styledLook(): Look { return kStyledLook; }
 
   /** Moves the camera to the front, the side, the top, ... of the bodies, and fits them in. */
-  look(angle: Angle, player: Seen['player']) {
+  look(angle: Angle, player: Showable['player']) {
     if (!this.#bodies) return;
     const { input, styled } = this.#bodies;
     const box = styled.box;
     if (this.view === 'crowd' && this.#crowd) {
       const { size } = this.#crowd;
-      box.setFromCenterAndSize(this.#styled.place.clone().setY(size.y / 2), size);
+      box.setFromCenterAndSize(this.#styled.position.clone().setY(size.y / 2), size);
     } else if (this.view !== 'styled') {
-      box.union(input.box.translate(this.#styled.place.clone().sub(this.#input.place)));
+      box.union(input.box.translate(this.#styled.position.clone().sub(this.#input.position)));
     }
     this.#camera.look(angle, player.parts('styled'), box);
   }
 
   /** Updates the bodies from the player's last step. */
-  update({ player, joints }: Seen, cut: boolean, seconds: number) {
+  update({ player, joints }: Showable, cut: boolean, seconds: number) {
     if (!this.#bodies) return;
     if (cut) this.#marks.clear();
     const input = player.parts('input').slice(), styled = player.parts('styled').slice();
@@ -198,9 +198,9 @@ export class Stage {
     }
     const feet = (parts: Float32Array, name: string) =>
       ['left', 'right'].map((side) => jointAt(parts, side + name));
-    this.#input = { place: groundUnder(input).add(inputShift),
+    this.#input = { position: groundUnder(input).add(inputShift),
       toes: feet(input, 'Toes').map((foot) => foot.add(inputShift)) };
-    this.#styled = { place: here, toes: feet(styled, 'Toes') };
+    this.#styled = { position: here, toes: feet(styled, 'Toes') };
     this.#marks.show(feet(styled, 'Foot'), this.#styled.toes, player.contacts, this.trail);
     this.#showOnions(styled, cut, seconds);
     this.#camera.follow(here, cut ? 0 : seconds);
@@ -259,7 +259,7 @@ export class Stage {
     return this.view === 'styled' || this.view === 'crowd' ? ['styled'] : ['input', 'styled'];
   }
   /** A view of another player with the same angle, on a separate canvas; free() it. */
-  studio(source: Seen): Stage {
+  studio(source: Showable): Stage {
     const out = new Stage(document.createElement('canvas'), true);
     out.view = this.view;
     out.trail = false;
@@ -267,11 +267,11 @@ export class Stage {
     out.#camera.takeAngle(this.#camera);
     return out;
   }
-  /** Draws one frame of a loop in which the bodies travel `way`: x and z of each visible one,
+  /** Draws one frame of a loop in which the bodies move by `travel`: x and z of each visible one,
    * metres; empty if the loop does not close. `share` of it has passed. */
-  drawStill(source: Seen, width: number, height: number, way: readonly number[],
+  drawStill(source: Showable, width: number, height: number, travel: readonly number[],
       share: number) {
-    const [input, styled] = [way.slice(0, 2), way.slice(-2)].map(([x = 0, z = 0]) =>
+    const [input, styled] = [travel.slice(0, 2), travel.slice(-2)].map(([x = 0, z = 0]) =>
       new THREE.Vector2(x, z));
     this.#loops = { input, styled, share };
     this.update(source, true, 0);
@@ -318,23 +318,23 @@ export class Stage {
 
   #seeInput(camera: THREE.PerspectiveCamera) {
     this.#otherCamera.copy(camera);
-    this.#otherCamera.position.sub(this.#styled.place).add(this.#input.place);
+    this.#otherCamera.position.sub(this.#styled.position).add(this.#input.position);
   }
 
   /** Centres on the styled body if its layer is among `layers`, else on the input. */
   #drawPart(camera: THREE.PerspectiveCamera, left: number, width: number, layers: number[]) {
     const { height } = this.#size;
     const which = layers.join() === `${kInputLayer}` ? 'input' : 'styled';
-    const { place, toes } = which === 'input' ? this.#input : this.#styled;
+    const { position, toes } = which === 'input' ? this.#input : this.#styled;
     camera.setViewOffset(width, height, 0, -this.#down, width, height);
     camera.zoom = this.#camera.zoomFor(camera.aspect);
     camera.updateProjectionMatrix();
     camera.layers.set(0);
     for (const layer of layers) camera.layers.enable(layer);
-    this.#ground.follow(place, layers.includes(kCrowdLayer) ? null : toes);
+    this.#ground.follow(position, layers.includes(kCrowdLayer) ? null : toes);
     if (this.#loops) this.#ground.close(this.#loops[which], this.#loops.share);
-    this.#sun.position.set(place.x + 1.6, 4.2, place.z + 2);
-    this.#sun.target.position.set(place.x, 0.6, place.z);
+    this.#sun.position.set(position.x + 1.6, 4.2, position.z + 2);
+    this.#sun.target.position.set(position.x, 0.6, position.z);
     if (this.#bodies) this.#bodies.input.opacity = layers.length > 1 ? kGhost : 1;
     this.#renderer.setViewport(left, 0, width, height);
     this.#renderer.setScissor(left, 0, width, height);

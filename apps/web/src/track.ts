@@ -1,7 +1,7 @@
 // The track under the time line: edits the keys of one style.
 
 import type { Style } from '../package/index.js';
-import { button, element, find, placeIn } from './dom';
+import { button, element, find, positionIn } from './dom';
 import { styleOptions } from './groups';
 import { kMin, kMax, moved, strengthAt, withKey, type Key } from './keys';
 import type { Session } from './session';
@@ -155,8 +155,8 @@ export class Track {
   }
 
   #listenToPointer() {
-    const place = (event: PointerEvent): Key => {
-      const [x, y] = placeIn(this.#field, event);
+    const keyAt = (event: PointerEvent): Key => {
+      const [x, y] = positionIn(this.#field, event);
       return [Math.min(1, Math.max(0, x)) * this.#seconds, kMax - y * (kMax - kMin)];
     };
     this.#field.addEventListener('pointerdown', (event) => {
@@ -164,7 +164,7 @@ export class Track {
       const on = (event.target as HTMLElement).closest<HTMLElement>('.key');
       let index = Number(on?.dataset.index);
       if (!on) {
-        const added = withKey(this.keys, ...place(event));
+        const added = withKey(this.keys, ...keyAt(event));
         this.#set(added.keys);
         index = added.index;
         this.#added = event.timeStamp;
@@ -175,7 +175,7 @@ export class Track {
       this.#drag = { index, pointer: event.pointerId };
     });
     this.#field.addEventListener('pointermove', (event) => {
-      if (this.#drag?.pointer === event.pointerId) this.#move(this.#drag.index, ...place(event));
+      if (this.#drag?.pointer === event.pointerId) this.#move(this.#drag.index, ...keyAt(event));
     });
     // The first click of a double click may add a key; do not remove that one again.
     this.#field.addEventListener('dblclick', (event) => {

@@ -160,8 +160,8 @@ export class TransportBar {
     this.#scrub.style.setProperty('--to', String(share));
     const frame = this.#frame(seconds);
     this.#scrub.setAttribute('aria-valuetext', `${seconds.toFixed(1)} seconds, frame ${frame}`);
-    const show = (place: HTMLElement, text: string) => {
-      if (place.textContent !== text) place.textContent = text;
+    const show = (field: HTMLElement, text: string) => {
+      if (field.textContent !== text) field.textContent = text;
     };
     show(this.#time, `${clock(seconds)} / ${clock(this.#seconds)}`);
     show(this.#frameNow, `frame ${frame}`);

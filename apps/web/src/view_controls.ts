@@ -30,12 +30,12 @@ export function buildViewControls(stage: Stage, look: (angle: Angle) => void, he
   });
   // A phone in landscape only has room for Open and Save in the panel; same query as in style.css.
   const low = matchMedia('(max-height: 480px) and (min-width: 560px)');
-  const place = () => {
+  const placeControls = () => {
     if (low.matches) find('#panel').prepend(find('#file-controls'));
     else find('.bar').append(find('#file-controls'));
   };
-  low.addEventListener('change', place);
-  place();
+  low.addEventListener('change', placeControls);
+  placeControls();
   find('#camera').append(menu,
     button('Fit', () => {
       menu.value = 'face';

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
-import { place, shares } from '../src/pad';
+import { positionOf, shares } from '../src/pad';
 import { histogram, median } from '../src/plots';
 import { keyWish, kPaces, stickWish } from '../src/steering';
 
@@ -12,13 +12,13 @@ describe('the pad', () => {
   });
   it('finds the place that it gave the shares of', () => {
     for (const [x, y] of [[0, 0], [0.3, 0.8], [1, 0.25]]) {
-      const found = place(shares(x, y));
+      const found = positionOf(shares(x, y));
       expect(found.x).toBeCloseTo(x);
       expect(found.y).toBeCloseTo(y);
     }
   });
   it('stays in the middle without any strength', () => {
-    expect(place([0, 0, 0, -0.5])).toEqual({ x: 0.5, y: 0.5 });
+    expect(positionOf([0, 0, 0, -0.5])).toEqual({ x: 0.5, y: 0.5 });
   });
 });
 

@@ -124,11 +124,11 @@ float Player::gate() const {
 }
 
 Result<void> Player::use_model(std::shared_ptr<const Model> model) {
-  LiveOptions how;
-  how.stylizer = options();
-  how.stylizer.sides = {};
-  how.stylizer.person = {};
-  Result<LiveStylizer> live = LiveStylizer::create(model, source_.rig(), how);
+  LiveOptions live_options;
+  live_options.stylizer = options();
+  live_options.stylizer.sides = {};
+  live_options.stylizer.person = {};
+  Result<LiveStylizer> live = LiveStylizer::create(model, source_.rig(), live_options);
   if (!live) return live.error();
   model_ = std::move(model);
   strengths_now_.assign(model_->styles().size(), 0);
@@ -220,15 +220,15 @@ Result<std::string> Player::export_as(const std::string& extension,
     return format_clip(walk, source_, extension);
   }
   if (!character_) return Error{"expected a model to export the motion with"};
-  RestyleOptions how;
-  how.stylizer = options();
-  if (!styled) how.stylizer.shape = {};
-  how.timing = timing_ != Timing::off;
+  RestyleOptions restyle_options;
+  restyle_options.stylizer = options();
+  if (!styled) restyle_options.stylizer.shape = {};
+  restyle_options.timing = timing_ != Timing::off;
   const auto tracks = styled ? file_tracks() : std::vector<StrengthTrack>();
   Result<Restyled> restyled =
       styled && removed_ >= 0
-          ? restyle_without(clip, rig, {remover_, removed_}, model_, tracks, how)
-          : restyle(clip, rig, model_, tracks, how);
+          ? restyle_without(clip, rig, {remover_, removed_}, model_, tracks, restyle_options)
+          : restyle(clip, rig, model_, tracks, restyle_options);
   if (!restyled) return restyled.error();
   if (extension != file_extension) return format_clip(restyled->clip, source_, extension);
   const ClipEdit edit = {source_.which(), &restyled->clip, restyled->source_frames, kName};

@@ -49,9 +49,9 @@ HumanPositions made_up_body(double seconds, float swing, float stoop, float head
     body[leg + 3] =
         body[leg + 2] + Vec3{0, -0.05f * std::cos(shin) + 0.13f * std::sin(shin), 0.13f};
   }
-  const Vec3 way = {0, 0, swing * 1.3f * static_cast<float>(seconds)};
+  const Vec3 travel = {0, 0, swing * 1.3f * static_cast<float>(seconds)};
   for (Vec3& p : body) {
-    p += way;
+    p += travel;
     p = {p.x * std::cos(heading) + p.z * std::sin(heading), p.y,
          p.z * std::cos(heading) - p.x * std::sin(heading)};
   }
@@ -213,8 +213,8 @@ TEST(Strip, whoever_stands_looks_the_same_whichever_way_she_faces) {
   const std::string ahead = draw_strip({made_up_row("stands", 0, 0.4f, 0)}, {});
   for (const float heading : {0.8f, 2.5f, -1.6f}) {
     const std::string turned = draw_strip({made_up_row("stands", 0, 0.4f, heading)}, {});
-    for (const char* way : {"cx", "cy"}) {
-      const std::vector<double> a = head_numbers(ahead, way), b = head_numbers(turned, way);
+    for (const char* axis : {"cx", "cy"}) {
+      const std::vector<double> a = head_numbers(ahead, axis), b = head_numbers(turned, axis);
       ASSERT_EQ(a.size(), b.size());
       for (size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 0.02) << heading;
     }

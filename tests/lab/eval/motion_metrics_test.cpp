@@ -12,14 +12,14 @@
 namespace panache {
 namespace {
 
-// A body at rest, every joint a metre high, whose ground follows `way` (metres of seconds).
-Take moving(int frames, const std::function<Vec3(float)>& way) {
+// A body at rest, every joint a metre high, whose ground follows `path` (metres of seconds).
+Take moving(int frames, const std::function<Vec3(float)>& path) {
   Take take;
   HumanPositions body;
   for (Vec3& joint : body) joint = {0, 1, 0};
   for (int f = 0; f < frames; ++f) {
     take.body.push_back(body);
-    take.root.push_back({way(static_cast<float>(f) / 30), 0});
+    take.root.push_back({path(static_cast<float>(f) / 30), 0});
   }
   return take;
 }

@@ -36,7 +36,7 @@ TEST(ReportJson, every_number_stands_under_its_key) {
   struct {
     Json found;
     double seed;
-  } places[] = {
+  } expected_numbers[] = {
       {json["real"], 0.97},
       {json["input"], 0.02},
       {json["real_by_content"]["run"], 0.96},
@@ -54,7 +54,7 @@ TEST(ReportJson, every_number_stands_under_its_key) {
       {system["unseen_splits"]["A"]["mean_posture"]["run"], 0.65},
       {system["unseen_splits"]["B"]["walk"], 0.68},
   };
-  for (auto& [found, seed] : places) {
+  for (auto& [found, seed] : expected_numbers) {
     const Metrics expected = numbers(seed);
     EXPECT_EQ(found["takes"], expected.takes);
     EXPECT_EQ(found["windows"], expected.windows);

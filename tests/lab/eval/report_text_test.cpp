@@ -27,11 +27,11 @@ using test::numbers;
 // The lines of a text that are wider than a terminal of ours, as its reader counts.
 std::string too_wide(const std::string& text) {
   std::istringstream lines(text);
-  std::string wide;
+  std::string found;
   for (std::string line; std::getline(lines, line);) {
-    if (character_count(line) > 110) wide += line + "\n";
+    if (character_count(line) > 110) found += line + "\n";
   }
-  return wide;
+  return found;
 }
 
 TEST(ReportText, no_line_is_wider_than_110_columns) {

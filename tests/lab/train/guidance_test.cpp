@@ -49,10 +49,10 @@ TEST(TraitChanges, are_differences_of_traits) {
 
 TEST(VelocityLoss, movement_that_differs_or_shrinks_costs) {
   // A hand that swings by so many metres about any place.
-  const auto swinging = [](float metres, float place = 0) {
+  const auto swinging = [](float metres, float middle = 0) {
     torch::Tensor bodies = torch::zeros({1, kSequenceInstants, kHumanJoints, 3});
     bodies.select(2, index(HumanJoint::left_hand)).select(2, 1) =
-        place + metres * torch::arange(kSequenceInstants).sin();
+        middle + metres * torch::arange(kSequenceInstants).sin();
     return bodies;
   };
   const auto loss = [&](const torch::Tensor& out) {
@@ -194,10 +194,10 @@ TEST_F(GuidanceTest, the_contact_network_does_not_depend_on_the_guided_tempo) {
 
 TEST_F(GuidanceTest, so_many_steps_are_guided_and_with_this_weight) {
   const auto trunk = [&](int every, float weight) {
-    TrainOptions how = options(12);
-    how.settings.guidance.every = every;
-    how.settings.guidance.weight = weight;
-    const auto trained = train(data_, styles_, how);
+    TrainOptions guided = options(12);
+    guided.settings.guidance.every = every;
+    guided.settings.guidance.weight = weight;
+    const auto trained = train(data_, styles_, guided);
     EXPECT_TRUE(trained.ok()) << trained.error().message;
     return trained->model.tensors.at("pose.trunk.0.weight").values;
   };

@@ -213,8 +213,8 @@ struct Motion {
   }
   // Moves a toe along an axis at so many m/s.
   Motion& move(int foot, int axis, float speed) {
-    const torch::Tensor way = speed * kStep * torch::arange(kInstants);
-    bodies.select(2, index(kToes[foot])).select(2, axis).add_(way);
+    const torch::Tensor path = speed * kStep * torch::arange(kInstants);
+    bodies.select(2, index(kToes[foot])).select(2, axis).add_(path);
     return *this;
   }
   Motion& raise(int foot, float metres) {

@@ -76,8 +76,8 @@ TEST_F(TrainerTest, the_same_seed_gives_the_same_model_and_another_another) {
 TEST_F(TrainerTest, where_the_joints_end_counts) {
   TrainOptions with = options(test::kPanache, 150), without = with;
   without.settings.positions = 0;
-  const auto pose_loss = [&](const TrainOptions& how) {
-    const auto trained = train(rows_, styles_, how);
+  const auto pose_loss = [&](const TrainOptions& options) {
+    const auto trained = train(rows_, styles_, options);
     float last = -1;
     for (const LossPoint& point : trained->losses) {
       if (point.network == "pose") last = point.train;

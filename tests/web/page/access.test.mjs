@@ -101,8 +101,8 @@ test('all of it can be done with the keyboard, and one sees where one is', async
 
 test('a phone shows all of it, large enough for a finger', async () => {
   const tab = await site.open('old=1', phone);
-  const wide = await tab.evaluate(() => document.documentElement.scrollWidth);
-  assert.equal(wide, 390);
+  const scrolled = await tab.evaluate(() => document.documentElement.scrollWidth);
+  assert.equal(scrolled, 390);
   const small = await tab.evaluate(() => [...document.querySelectorAll('button, select, input, summary')]
     .filter((e) => e.checkVisibility() && !e.hidden)
     .map((e) => [e.id || e.textContent, e.getBoundingClientRect().height])
@@ -145,16 +145,16 @@ test('small screens: nothing overlaps or is scrolled sideways, and the view keep
       const end = (e) => (e.closest('.bar') ?? document.body).getBoundingClientRect().right;
       const outside = boxes.filter(([, box, e]) => box.left < -0.5 || box.right > end(e) + 0.5);
       const view = document.querySelector('#view').getBoundingClientRect();
-      return { wide: document.documentElement.scrollWidth, overlaps: out, sideways,
+      return { scrolled: document.documentElement.scrollWidth, overlaps: out, sideways,
         outside: outside.map(([name]) => name),
         view: (view.width * view.height) / (innerWidth * innerHeight) };
     });
     const check = async (what) => {
       // A click may have scrolled what it is under the view, which stays where it is.
       await tab.evaluate(() => window.scrollTo(0, 0));
-      const { wide, view, ...faults } = await measure();
+      const { scrolled, view, ...faults } = await measure();
       assert.deepEqual(faults, { overlaps: [], sideways: [], outside: [] }, what);
-      assert.equal(wide, width, what);
+      assert.equal(scrolled, width, what);
       assert.ok(view >= 0.49, `${what}: ${view}`);
       await tab.screenshot({ path: join(pictures, `${what}.png`) });
     };

@@ -131,10 +131,10 @@ export function boxCharacter({ extra = [], inside = false, motion = null, blend 
   const skin = { joints: kJoints.map((_, j) => j),
     inverseBindMatrices: floats(inverse, 'MAT4', 16) };
   const image = add(texture([[0, 200, 0, 255], [0, 0, 255, 255]]));
-  const nodes = kJoints.map(([name, parent, place], j) => {
+  const nodes = kJoints.map(([name, parent, position], j) => {
     const children = kJoints.flatMap(([, above], child) => (above === j ? [child] : []));
     return { name, ...(children.length ? { children } : {}),
-      translation: parent < 0 ? place : place.map((v, k) => v - kJoints[parent][2][k]) };
+      translation: parent < 0 ? position : position.map((v, k) => v - kJoints[parent][2][k]) };
   });
   nodes.push({ name: 'body', mesh: 0, skin: 0 });
   const json = {

@@ -42,33 +42,33 @@ test('keyframes are added, moved and removed with the mouse', async () => {
   await button('Keyframes').click();
   await tab.locator('#key-style').selectOption('old');
   const field = await tab.locator('.key-field').boundingBox();
-  const place = (x, strength) =>
+  const pointAt = (x, strength) =>
     [field.x + x * field.width, field.y + ((2 - strength) / 2.5) * field.height];
-  await tab.mouse.click(...place(0.25, 0));
-  await tab.mouse.click(...place(0.75, 1));
+  await tab.mouse.click(...pointAt(0.25, 0));
+  await tab.mouse.click(...pointAt(0.75, 1));
   const [a, b] = await keys();
   const whole = 3 - 1 / 60;
   // A pixel across, and one down.
-  const [wide, high] = [whole / field.width, 2.5 / field.height];
+  const [across, down] = [whole / field.width, 2.5 / field.height];
   for (const [key, seconds, strength] of [[a, 0.25 * whole, 0], [b, 0.75 * whole, 1]]) {
-    assert.ok(Math.abs(key[0] - seconds) <= wide + 1e-3, `${key}`);
-    assert.ok(Math.abs(key[1] - strength) <= high + 0.01, `${key}`);
+    assert.ok(Math.abs(key[0] - seconds) <= across + 1e-3, `${key}`);
+    assert.ok(Math.abs(key[1] - strength) <= down + 0.01, `${key}`);
   }
   await pause();
-  await tab.mouse.move(...place(0.75, 1));
+  await tab.mouse.move(...pointAt(0.75, 1));
   await tab.mouse.down();
-  await tab.mouse.move(...place(0.6, 1.4), { steps: 4 });
+  await tab.mouse.move(...pointAt(0.6, 1.4), { steps: 4 });
   await tab.mouse.up();
   const dragged = (await keys())[1];
-  assert.ok(Math.abs(dragged[0] - 0.6 * whole) <= wide + 1e-3, `${dragged}`);
-  assert.ok(Math.abs(dragged[1] - 1.4) <= high + 0.01, `${dragged}`);
+  assert.ok(Math.abs(dragged[0] - 0.6 * whole) <= across + 1e-3, `${dragged}`);
+  assert.ok(Math.abs(dragged[1] - 1.4) <= down + 0.01, `${dragged}`);
   await frames(tab, 5);
   await tab.screenshot({ path: join(pictures, 'keys.png') });
   await tab.waitForTimeout(1000);
-  await doubleClick(tab, ...place(0.6, 1.4));
+  await doubleClick(tab, ...pointAt(0.6, 1.4));
   assert.equal((await keys()).length, 1);
   // A double click on an empty place leaves one key.
-  await doubleClick(tab, ...place(0.9, 0.5));
+  await doubleClick(tab, ...pointAt(0.9, 0.5));
   assert.equal((await keys()).length, 2);
   await pause();
   await tab.keyboard.press('Delete');
@@ -187,9 +187,9 @@ test('a picture has the size that was asked for', async () => {
   assert.ok(bytes.length > 5000, `${bytes.length}`);
   // The view has its own size again.
   await frames(tab, 2);
-  const [wide, seen] = await tab.evaluate(() => {
+  const [drawn, seen] = await tab.evaluate(() => {
     const { canvas } = window.page.stage;
     return [canvas.width / canvas.height, canvas.clientWidth / canvas.clientHeight];
   });
-  assert.ok(Math.abs(wide - seen) < 0.02, `${wide} ${seen}`);
+  assert.ok(Math.abs(drawn - seen) < 0.02, `${drawn} ${seen}`);
 });

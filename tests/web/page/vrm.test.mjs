@@ -21,17 +21,17 @@ after(async () => {
  * weights of the face. */
 const seen = () => tab.evaluate(() => {
   const { vrm } = window.avatar;
-  const place = (name) => {
+  const positionOf = (name) => {
     vrm.scene.updateMatrixWorld(true);
     return [12, 13, 14].map((k) => vrm.humanoid.getRawBoneNode(name).matrixWorld.elements[k]);
   };
   let hand = 0;
   for (let i = 0; i < 120; ++i) {
     window.avatar.update(1 / 60);
-    hand = Math.max(hand, place('leftHand')[1], place('rightHand')[1]);
+    hand = Math.max(hand, positionOf('leftHand')[1], positionOf('rightHand')[1]);
   }
   const face = vrm.expressionManager;
-  return { ahead: place('head')[2] - place('hips')[2], head: place('head')[1], hand,
+  return { ahead: positionOf('head')[2] - positionOf('hips')[2], head: positionOf('head')[1], hand,
     sad: face.getValue('sad'), happy: face.getValue('happy') };
 });
 
