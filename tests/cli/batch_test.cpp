@@ -56,28 +56,21 @@ TEST_F(Batch, a_folder_means_all_motion_in_it_and_keeps_its_folders) {
                                           "takes/day 2/deep/C.BVH > out/day 2/deep/C.BVH"}));
 }
 
-TEST_F(Batch, a_folder_with_one_file_gives_a_folder) {
-  EXPECT_EQ(pairs({"takes/day 2/deep/", "-o", "out"}), Lines{"takes/day 2/deep/C.BVH > out/C.BVH"});
-}
-
-TEST_F(Batch, a_pattern_means_what_matches_it) {
-  EXPECT_EQ(pairs("takes/*.bvh -o one"),
-            (Lines{"takes/a.bvh > one/a.bvh", "takes/b.bvh > one/b.bvh"}));
-  EXPECT_EQ(pairs("takes/**/[ac].* -o any"),
-            (Lines{"takes/a.bvh > any/a.bvh", "takes/day 2/a.bvh > any/day 2/a.bvh"}));
-  EXPECT_EQ(pairs("takes/day?2/** -o below"),
-            (Lines{"takes/day 2/a.bvh > below/day 2/a.bvh",
-                   "takes/day 2/deep/C.BVH > below/day 2/deep/C.BVH"}));
-}
-
-TEST_F(Batch, a_file_whose_name_looks_like_a_pattern_is_a_file) {
+TEST_F(Batch, inputs_are_files_folders_and_patterns_each_file_once) {
   write_walk("a[1].bvh");
-  EXPECT_EQ(pairs("a[1].bvh -o out/"), Lines{"a[1].bvh > out/a[1].bvh"});
-}
-
-TEST_F(Batch, a_file_named_twice_comes_once) {
-  EXPECT_EQ(pairs("takes/*.bvh takes/a.bvh ./takes/b.bvh -o out"),
-            (Lines{"takes/a.bvh > out/a.bvh", "takes/b.bvh > out/b.bvh"}));
+  const std::pair<Words, Lines> cases[] = {
+      {{"takes/day 2/deep/", "-o", "folder"}, {"takes/day 2/deep/C.BVH > folder/C.BVH"}},
+      {"takes/*.bvh -o one", {"takes/a.bvh > one/a.bvh", "takes/b.bvh > one/b.bvh"}},
+      {"takes/**/[ac].* -o any",
+       {"takes/a.bvh > any/a.bvh", "takes/day 2/a.bvh > any/day 2/a.bvh"}},
+      {"takes/day?2/** -o below",
+       {"takes/day 2/a.bvh > below/day 2/a.bvh",
+        "takes/day 2/deep/C.BVH > below/day 2/deep/C.BVH"}},
+      {"a[1].bvh -o name/", {"a[1].bvh > name/a[1].bvh"}},
+      {"takes/*.bvh takes/a.bvh ./takes/b.bvh -o twice",
+       {"takes/a.bvh > twice/a.bvh", "takes/b.bvh > twice/b.bvh"}},
+  };
+  for (const auto& [arguments, expected] : cases) EXPECT_EQ(pairs(arguments), expected);
 }
 
 TEST_F(Batch, results_are_no_inputs) {
@@ -104,30 +97,6 @@ TEST_F(Batch, what_is_done_already_can_be_skipped) {
   EXPECT_EQ(stylize("takes -o out --skip-existing --force").exit, 2);
 }
 
-TEST_F(Batch, processes_that_share_a_tree_write_each_file_once) {
-  for (int i = 0; i < 60; ++i) write_walk("many/" + std::to_string(i) + ".bvh", 8);
-  const auto share = [&](const std::string& name) {
-    return start({"-c", PANACHE_PROGRAM " stylize many --style old=1 -o out --skip-existing >" +
-                            name + " 2>&1"},
-                 "model.safetensors", "/bin/sh");
-  };
-  const pid_t first = share("first"), second = share("second");
-  for (const pid_t process : {first, second}) {
-    int status = 0;
-    ::waitpid(process, &status, 0);
-    EXPECT_EQ(status, 0);
-  }
-  int written = 0;
-  for (const std::string name : {"first", "second"}) {
-    int count = 0;
-    ASSERT_EQ(std::sscanf(read(name).c_str(), "restyled %d of 60 files", &count), 1) << read(name);
-    EXPECT_FALSE(holds(read(name), "failed"));
-    written += count;
-  }
-  EXPECT_EQ(written, 60);
-  EXPECT_EQ(entries("out").size(), 60u);
-}
-
 TEST_F(Batch, what_another_process_wrote_meanwhile_is_skipped) {
   for (int i = 0; i < 100; ++i) write_walk("many/" + std::to_string(i) + ".bvh", 8);
   const pid_t batch = start("stylize many --style old=1 -o out --skip-existing");
@@ -144,23 +113,6 @@ TEST_F(Batch, what_another_process_wrote_meanwhile_is_skipped) {
                                   " of 100 files, " + std::to_string(theirs.size()) +
                                   " skipped, in "));
   for (const std::string& name : theirs) EXPECT_EQ(read(name), "theirs");
-}
-
-TEST_F(Batch, the_last_line_counts_what_failed_and_what_was_skipped) {
-  write("takes/bad.bvh", "HIERARCHY");
-  ASSERT_EQ(stylize("takes/a.bvh -o out/").exit, 0);
-  const Ran both = stylize("takes -o out --skip-existing");
-  EXPECT_TRUE(begins(both.out, "restyled 3 of 5 files, 1 failed, 1 skipped, in "));
-}
-
-TEST_F(Batch, a_style_that_is_missing_is_named_before_the_output) {
-  for (const std::string input : {"takes/a.bvh", "takes"}) {
-    const Ran ran = run({"stylize", input});
-    EXPECT_EQ(ran.exit, 2);
-    EXPECT_EQ(ran.err,
-              "panache: a style is missing; expected one, as in --style angry=1, or a table of "
-              "strengths (--strengths); the model has angry, old, proud and sad\n");
-  }
 }
 
 TEST_F(Batch, a_dry_run_shows_what_would_be_written_and_writes_nothing) {
@@ -188,14 +140,6 @@ TEST_F(Batch, quiet_prints_errors_alone) {
   EXPECT_TRUE(exists("out/a.bvh"));
   const Ran good = stylize("takes/a.bvh -o a.bvh --quiet");
   EXPECT_EQ(good.out + good.err, "");
-}
-
-TEST_F(Batch, a_style_is_named_in_any_case) {
-  ASSERT_EQ(stylize("takes/a.bvh -o lower.bvh").exit, 0);
-  must("stylize takes/a.bvh --style OLD=1 -o upper.bvh");
-  EXPECT_EQ(read("upper.bvh"), read("lower.bvh"));
-  const Ran unknown = run("stylize takes/a.bvh --style OLDD=1 -o no.bvh");
-  EXPECT_TRUE(begins(unknown.err, "panache: unknown style 'OLDD'; the nearest is old"));
 }
 
 TEST_F(Batch, a_link_to_a_folder_is_not_followed) {

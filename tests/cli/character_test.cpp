@@ -178,22 +178,6 @@ TEST_F(Character, what_is_styled_comes_first) {
   EXPECT_EQ(clips_of("last.glb"), (Names{"Walk", "Wave", "Walk (old 1)"}));
 }
 
-TEST_F(Character, a_characters_own_animations_go_unless_asked_for) {
-  write("hero.glb", to_glb(character()));
-  write_walk("walk.bvh");
-  const Words onto = "stylize walk.bvh --onto hero.glb --style old=1 --force -o out.glb";
-  must(onto);
-  EXPECT_EQ(clips_of("out.glb"), Names{"walk (old 1)"});
-  const std::map<std::string, Names> kept = {{"--first", {"walk (old 1)", "Walk", "Wave"}},
-                                             {"--last", {"Walk", "Wave", "walk (old 1)"}}};
-  for (const auto& [flag, names] : kept) {
-    std::vector<std::string> command = onto;
-    command.push_back(flag);
-    must(command);
-    EXPECT_EQ(clips_of("out.glb"), names);
-  }
-}
-
 // The character's walk with more animations of one joint, which stand before it.
 std::string with_poses(const std::map<std::string, std::vector<float>>& poses) {
   GltfParts parts = character();
@@ -249,25 +233,13 @@ std::pair<Vec3, Vec3> hips_of(const std::string& file) {
   const auto motion = read_motion(file);
   EXPECT_TRUE(motion.ok()) << motion.error().message;
   const Clip& clip = (*motion)->clip();
-  size_t hips = 0;
-  while (clip.skeleton.joints[hips].name != "hips" && clip.skeleton.joints[hips].name != "Hips") {
-    ++hips;
-  }
+  const auto hips = static_cast<size_t>(
+      std::ranges::find_if(clip.skeleton.joints,
+                           [](const Joint& j) { return j.name == "hips" || j.name == "Hips"; }) -
+      clip.skeleton.joints.begin());
   std::pair<Vec3, Vec3> out;
   for (const bool last : {false, true}) {
-    const ConstPose pose = clip.pose(last ? clip.frames - 1 : 0);
-    Quat turn;
-    Vec3 position;
-    std::vector<size_t> chain;
-    for (int j = static_cast<int>(hips); j >= 0;) {
-      chain.push_back(static_cast<size_t>(j));
-      j = clip.skeleton.joints[chain.back()].parent;
-    }
-    for (auto j = chain.rbegin(); j != chain.rend(); ++j) {
-      position = position + rotate(turn, pose.translations[*j]);
-      turn = turn * pose.rotations[*j];
-    }
-    (last ? out.second : out.first) = position;
+    (last ? out.second : out.first) = world_places(clip, last ? clip.frames - 1 : 0)[hips];
   }
   return out;
 }
@@ -278,23 +250,19 @@ TEST_F(Character, a_motion_in_place_keeps_its_height_and_loses_its_path) {
   z_up.z_up = true;
   write("z.fbx", format_fbx(walking_clip(40), z_up));
   write("hero.glb", to_glb(character()));
-  const std::map<std::string, std::vector<std::string>> commands = {
-      {"a.bvh", {"convert", "walk.bvh"}},
-      {"b.glb", {"convert", "walk.bvh"}},
-      {"c.glb", {"convert", "z.fbx"}},
-      {"d.bvh", {"stylize", "walk.bvh", "--style", "old=1"}},
-      {"e.glb", {"stylize", "z.fbx", "--style", "old=1"}},
-      {"f.glb", {"retarget", "walk.bvh", "--onto", "hero.glb"}},
-      {"g.glb", {"convert", "walk.bvh", "--onto", "hero.glb"}},
+  const std::pair<std::string, Words> commands[] = {
+      {"a.bvh", "convert walk.bvh"},
+      {"b.glb", "convert walk.bvh"},
+      {"c.glb", "convert z.fbx"},
+      {"d.bvh", "stylize walk.bvh --style old=1"},
+      {"e.glb", "stylize z.fbx --style old=1"},
+      {"f.glb", "retarget walk.bvh --onto hero.glb"},
+      {"g.glb", "convert walk.bvh --onto hero.glb"},
   };
   for (const auto& [out, command] : commands) {
     SCOPED_TRACE(out);
-    std::vector<std::string> words = command;
-    words.insert(words.end(), {"-o", "moves-" + out});
-    must(words);
-    words.back() = out;
-    words.emplace_back("--in-place");
-    must(words);
+    must(command + Words{"-o", "moves-" + out});
+    must(command + Words{"--in-place", "-o", out});
     const auto [moving_start, moving_end] = hips_of(path("moves-" + out));
     const auto [start, end] = hips_of(path(out));
     EXPECT_GT(length(moving_end - moving_start), 0.5f);  // It walks at 1.2 m/s.

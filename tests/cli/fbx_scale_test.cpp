@@ -72,15 +72,45 @@ class FbxScales : public FbxProgramTest {
     EXPECT_TRUE(file.ok()) << file.error().message;
     return file && (*file)->clip_names().size() == 2 ? *std::move(file) : nullptr;
   }
-  // `make` makes the file of a clip whose joints have these scales: the first `count` of kScaled.
-  template <class Make>
-  void expect_alike(const Make& make, size_t count = kScaled.size()) {
-    const Clip walk = walking_clip(40);
-    const auto plain = styled(make(walk, JointScales{}));
+};
+
+std::string version_7(const Clip& clip, const JointScales& scales) {
+  FbxOptions options;
+  options.scales = scales;
+  return format_fbx(clip, options);
+}
+std::string version_7_with_scale_keys(const Clip& clip, const JointScales& scales) {
+  FbxOptions options;
+  options.scales = scales;
+  options.has_scale_keys = options.z_up = true;
+  options.pre_rotation = normalized(Quat{0.3f, -0.5f, 0.2f, 0.7f});
+  return format_fbx(clip, options);
+}
+std::string version_7_that_Assimp_rejects(const Clip& clip, const JointScales& scales) {
+  std::string text = version_7_with_scale_keys(clip, scales);
+  return text.replace(text.find("FBXVersion: 7400"), 16, "FBXVersion: 7000");
+}
+std::string version_6(const Clip& clip, const JointScales& scales) {
+  return to_binary_fbx6(Fbx6Maker(clip, 2, 1, scales).make());
+}
+
+TEST_F(FbxScales, files_of_every_kind_are_styled_as_the_plain_character) {
+  const struct {
+    const char* name;
+    std::string (*make)(const Clip&, const JointScales&);
+    size_t count;  // Of kScaled.
+  } kinds[] = {{"version 7", version_7, 4},
+               {"version 7 with keys of scales", version_7_with_scale_keys, kScaled.size()},
+               {"version 7 that Assimp rejects", version_7_that_Assimp_rejects, 4},
+               {"version 6", version_6, kScaled.size()}};
+  const Clip walk = walking_clip(40);
+  for (const auto& kind : kinds) {
+    SCOPED_TRACE(kind.name);
+    const auto plain = styled(kind.make(walk, {}));
     ASSERT_TRUE(plain);
-    for (const auto& [name, scales] : std::span(kScaled).first(count)) {
+    for (const auto& [name, scales] : std::span(kScaled).first(kind.count)) {
       SCOPED_TRACE(name);
-      const auto other = styled(make(below_scales(walk, scales), scales));
+      const auto other = styled(kind.make(below_scales(walk, scales), scales));
       ASSERT_TRUE(other);
       for (const int clip : {0, 1}) {
         SCOPED_TRACE(clip);
@@ -88,45 +118,6 @@ class FbxScales : public FbxProgramTest {
       }
     }
   }
-};
-
-TEST_F(FbxScales, version_7_is_styled_as_the_plain_character) {
-  expect_alike(
-      [](const Clip& clip, const JointScales& scales) {
-        FbxOptions options;
-        options.scales = scales;
-        return format_fbx(clip, options);
-      },
-      4);
-}
-
-TEST_F(FbxScales, version_7_with_scale_keys_is_styled_as_the_plain_character) {
-  expect_alike([](const Clip& clip, const JointScales& scales) {
-    FbxOptions options;
-    options.scales = scales;
-    options.has_scale_keys = true;
-    options.z_up = true;
-    options.pre_rotation = normalized(Quat{0.3f, -0.5f, 0.2f, 0.7f});
-    return format_fbx(clip, options);
-  });
-}
-
-TEST_F(FbxScales, version_7_text_that_Assimp_rejects_is_styled_as_the_plain_character) {
-  expect_alike(
-      [](const Clip& clip, const JointScales& scales) {
-        FbxOptions options;
-        options.scales = scales;
-        options.has_scale_keys = true;
-        std::string text = format_fbx(clip, options);
-        return text.replace(text.find("FBXVersion: 7400"), 16, "FBXVersion: 7000");
-      },
-      4);
-}
-
-TEST_F(FbxScales, version_6_is_styled_as_the_plain_character) {
-  expect_alike([](const Clip& clip, const JointScales& scales) {
-    return to_binary_fbx6(Fbx6Maker(clip, 2, 1, scales).make());
-  });
 }
 
 }  // namespace

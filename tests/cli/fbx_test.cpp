@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/fbx_program_test.h"
+#include "cli/node.h"
 #include "cli/same_positions.h"
 #include "clip/bvh.h"
 #include "clip/make_gltf.h"
@@ -40,33 +41,24 @@ class Fbx : public FbxProgramTest {
   }
 };
 
-TEST_F(Fbx, a_walk_keeps_its_places_and_times) { expect_kept({}); }
-
-TEST_F(Fbx, units_become_metres) {
-  FbxOptions inches;
-  inches.centimetres = 2.54;
-  expect_kept(inches);
-  FbxOptions metres;
-  metres.centimetres = 100;
-  expect_kept(metres);
-}
-
-TEST_F(Fbx, z_up_becomes_y_up) {
-  FbxOptions options;
-  options.z_up = true;
-  expect_kept(options);
-}
-
-TEST_F(Fbx, rotations_before_a_joints_own_count) {
-  FbxOptions options;
-  options.pre_rotation = normalized(Quat{0.3f, -0.5f, 0.2f, 0.7f});
-  expect_kept(options);
-}
-
-TEST_F(Fbx, a_motion_that_begins_late_begins_with_its_first_key) {
-  FbxOptions options;
-  options.first_key = 2.5;
-  expect_kept(options);
+TEST_F(Fbx, a_walk_keeps_its_places_and_times_whatever_the_file_counts_in) {
+  const std::pair<const char*, void (*)(FbxOptions&)> cases[] = {
+      {"centimetres", [](FbxOptions&) {}},
+      {"inches", [](FbxOptions& o) { o.centimetres = 2.54; }},
+      {"metres", [](FbxOptions& o) { o.centimetres = 100; }},
+      {"Z up", [](FbxOptions& o) { o.z_up = true; }},
+      {"rotations before a joint's own",
+       [](FbxOptions& o) {
+         o.pre_rotation = normalized(Quat{0.3f, -0.5f, 0.2f, 0.7f});
+       }},
+      {"a first key that is late", [](FbxOptions& o) { o.first_key = 2.5; }},
+  };
+  for (const auto& [name, change] : cases) {
+    SCOPED_TRACE(name);
+    FbxOptions options;
+    change(options);
+    expect_kept(options);
+  }
 }
 
 TEST_F(Fbx, only_what_moves_can_move) {
@@ -227,26 +219,12 @@ TEST_F(Fbx, other_formats_become_fbx_and_fbx_becomes_any) {
   EXPECT_EQ((*on)->clip_names(), std::vector<std::string>{"walk"});
 }
 
-TEST_F(Fbx, a_skeleton_without_motion_has_nothing_to_restyle) {
-  FbxOptions options;
-  options.motion = "";
-  write("still.fbx", format_fbx(walking_clip(1), options));
-  const Ran ran = run("stylize still.fbx --style old=1 -o out.glb");
-  EXPECT_EQ(ran.exit, 1);
-  EXPECT_TRUE(begins(ran.err, "panache: still.fbx: "));
-  EXPECT_FALSE(exists("out.glb"));
-}
-
 TEST_F(Fbx, a_damaged_file_gets_a_message) {
-  const std::string good = read("walk.fbx");
-  // Each cut leaves a bracket open somewhere else.
-  for (size_t size = 100; size < good.size(); size += good.size() / 23) {
-    write("bad.fbx", good.substr(0, size));
-    const Ran ran = run("info bad.fbx");
-    EXPECT_EQ(ran.exit, 1) << size << ran.out;
-    EXPECT_TRUE(begins(ran.err, "panache: bad.fbx:"));
-    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
-  }
+  write("bad.fbx", read("walk.fbx").substr(0, 5000));
+  const Ran cut = run("info bad.fbx");
+  EXPECT_EQ(cut.exit, 1) << cut.out;
+  EXPECT_TRUE(begins(cut.err, "panache: bad.fbx:"));
+  EXPECT_EQ(std::count(cut.err.begin(), cut.err.end(), '\n'), 1) << cut.err;
   write("bad.fbx", "no such thing");
   EXPECT_EQ(run("info bad.fbx").err,
             "panache: bad.fbx: does not begin as FBX files do; is it damaged?\n");
@@ -262,13 +240,17 @@ class FbxOfBlender : public Fbx {
     if (std::system("command -v blender >/dev/null") != 0) GTEST_SKIP() << "there is no blender";
     must("walker -o walk.bvh --seconds 2 --turn 20");
   }
-  // `options` go to Blender's exporter.
-  void expect_kept_by_blender(const std::string& options, float size = 1) {
-    write("make.py", kScript + std::string("export('walk.bvh', 'blender.fbx'") + options + ")\n");
+  // Runs the script below and then these lines.
+  void run_in_blender(const std::string& lines) {
+    write("make.py", kScript + lines);
     const std::string command =
         "cd '" + path("") +
-        "' && blender -b --factory-startup --python-exit-code 1 --python make.py";
-    ASSERT_EQ(std::system((command + " >blender.log 2>&1").c_str()), 0) << read("blender.log");
+        "' && blender -b --factory-startup --python-exit-code 1 --python make.py >blender.log 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0) << read("blender.log");
+  }
+  // `options` go to Blender's exporter.
+  void expect_kept_by_blender(const std::string& options, float size = 1) {
+    run_in_blender("export('walk.bvh', 'blender.fbx'" + options + ")\n");
     const auto walk = read_motion(path("walk.bvh"));
     ASSERT_TRUE(walk.ok());
     for (const std::string name : {"out.bvh", "out.glb"}) {
@@ -367,7 +349,7 @@ TEST_F(FbxOfBlender, the_scale_of_a_node_goes_into_the_places_below_it) {
 
 // Weights that sum to anything, of up to six joints, and a material.
 TEST_F(FbxOfBlender, the_validator_finds_no_error_in_a_smooth_skin) {
-  write("make.py", kScript + std::string(R"(
+  run_in_blender(R"(
 def smooth(armature):
     body = add_body(armature, (0, 0, 0))
     groups = list(body.vertex_groups)
@@ -380,10 +362,7 @@ def smooth(armature):
     material.use_nodes = True
     body.data.materials.append(material)
 export('walk.bvh', 'smooth.fbx', smooth)
-)"));
-  const std::string command =
-      "cd '" + path("") + "' && blender -b --factory-startup --python-exit-code 1 --python make.py";
-  ASSERT_EQ(std::system((command + " >blender.log 2>&1").c_str()), 0) << read("blender.log");
+)");
   ASSERT_TRUE(converted("smooth.fbx", "out.glb"));
   const GltfParts glb = glb_parts(read("out.glb"));
   const std::string used = glb.json.value("extensionsUsed", Json::array()).dump();
@@ -400,14 +379,7 @@ export('walk.bvh', 'smooth.fbx', smooth)
   for (size_t i = 0; i < weights.size(); i += 4) {
     EXPECT_NEAR(weights[i] + weights[i + 1] + weights[i + 2] + weights[i + 3], 1, 1e-6f) << i;
   }
-  const std::string web = PANACHE_SOURCE_DIR "/tests/web/";
-  if (!std::filesystem::exists(web + "node_modules"))
-    GTEST_SKIP() << "npm ci was not run in tests/web";
-  EXPECT_EQ(
-      std::system(
-          ("cd '" + path("") + "' && node '" + web + "validate.mjs' out.glb > said.txt").c_str()),
-      0)
-      << read("said.txt");
+  expect_valid_gltf(*this, "out.glb");
 }
 
 TEST_F(FbxOfBlender, a_skinned_walk_with_other_axes_and_units_keeps_its_places) {

@@ -31,13 +31,6 @@ class Info : public ProgramTest {
     }
     return "no such joint";
   }
-  void expect_map_rejected(const std::string& map, const std::string& message) {
-    write("map.json", map);
-    const Ran ran = run("info walk.bvh --map map.json");
-    EXPECT_EQ(ran.err, "panache: map.json" + message + "\n");
-    EXPECT_EQ(ran.exit, 1);
-    EXPECT_EQ(ran.out, "");
-  }
 };
 
 TEST_F(Info, shows_how_the_rig_was_mapped) {
@@ -108,20 +101,14 @@ TEST_F(Info, believes_a_unit_and_an_axis) {
 }
 
 TEST_F(Info, rejects_what_is_no_unit_or_axis) {
-  const auto rejected = [&](const std::string& option, const std::string& value) {
-    const Ran ran = run({"info", "walk.bvh", option, value});
-    EXPECT_EQ(ran.exit, 2);
-    EXPECT_EQ(ran.out, "");
-    return ran.err;
-  };
   for (const std::string axis : {"up", "w", "-", "++y", "+"}) {
-    EXPECT_EQ(rejected("--up", axis),
-              "panache: --up: expected an axis (x, y, z, -x, -y or -z), found '" + axis + "'\n");
+    expect_rejected({"info", "walk.bvh", "--up", axis}, 2,
+                    "--up: expected an axis (x, y, z, -x, -y or -z), found '" + axis + "'");
   }
-  EXPECT_EQ(rejected("--scale", "0"),
-            "panache: --scale: expected a number from 1e-09 to 1000, found 0\n");
-  EXPECT_EQ(rejected("--scale", "nan"),
-            "panache: --scale: expected a number from 1e-09 to 1000, found nan\n");
+  for (const std::string scale : {"0", "nan"}) {
+    expect_rejected({"info", "walk.bvh", "--scale", scale}, 2,
+                    "--scale: expected a number from 1e-09 to 1000, found " + scale);
+  }
 }
 
 TEST_F(Info, believes_a_map_and_finds_the_rest) {
@@ -146,25 +133,26 @@ TEST_F(Info, takes_back_what_it_printed) {
 
 TEST_F(Info, rejects_a_map_that_is_none) {
   const std::string example = "expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}";
-  expect_map_rejected("{\n  \"leftHand\" \"x\"\n}", ":2:16: " + example);
-  expect_map_rejected("", ":1:1: " + example);
-  expect_map_rejected("[]", ": " + example + ", found a JSON array");
-  expect_map_rejected("{}", ": " + example + ", found nothing in it");
-  expect_map_rejected(
-      "{\"leftHnad\": \"x\"}",
-      ": unknown human joint 'leftHnad'; the nearest is leftHand (panache info lists "
-      "all 21)");
-  expect_map_rejected("{\"leftHand\": 3}",
-                      ": leftHand: expected the name of a joint or null, found 3");
-  expect_map_rejected("{\"leftHand\": 1e999}",
-                      ": " + example + ", found a number that is too large");
-  expect_map_rejected("{\"mapping\": null}",
-                      ": holds no mapping, because that file has no humanoid; " + example);
-  expect_map_rejected("{\"mapping\": {\"joints\": [{\"humanoid\": \"neck\"}]}}",
-                      ": mapping.joints[0]: expected an object with 'humanoid' and 'joint', as "
-                      "panache info --json prints them");
-  const Ran none = run("info walk.bvh --map none.json");
-  EXPECT_EQ(none.err, "panache: none.json: cannot be read: No such file or directory\n");
+  const std::pair<const char*, std::string> cases[] = {
+      {"{\n  \"leftHand\" \"x\"\n}", ":2:16: " + example},
+      {"", ":1:1: " + example},
+      {"[]", ": " + example + ", found a JSON array"},
+      {"{}", ": " + example + ", found nothing in it"},
+      {R"({"leftHnad": "x"})",
+       ": unknown human joint 'leftHnad'; the nearest is leftHand (panache info lists all 21)"},
+      {R"({"leftHand": 3})", ": leftHand: expected the name of a joint or null, found 3"},
+      {R"({"leftHand": 1e999})", ": " + example + ", found a number that is too large"},
+      {R"({"mapping": null})", ": holds no mapping, because that file has no humanoid; " + example},
+      {R"({"mapping": {"joints": [{"humanoid": "neck"}]}})",
+       ": mapping.joints[0]: expected an object with 'humanoid' and 'joint', as panache info "
+       "--json prints them"},
+  };
+  for (const auto& [map, message] : cases) {
+    write("map.json", map);
+    expect_rejected("info walk.bvh --map map.json", 1, "map.json" + message);
+  }
+  expect_rejected("info walk.bvh --map none.json", 1,
+                  "none.json: cannot be read: No such file or directory");
 }
 
 TEST_F(Info, tells_of_several_files_and_folders_and_goes_on_after_a_bad_one) {

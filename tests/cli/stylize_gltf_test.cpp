@@ -26,12 +26,6 @@ class StylizeGltf : public ProgramTest {
   using Names = std::vector<std::string>;
 };
 
-TEST_F(StylizeGltf, new_motions_stand_beside_the_old) {
-  const auto file = styled("hero.glb --style old=1 -o out.glb");
-  ASSERT_TRUE(file);
-  EXPECT_EQ(file->clip_names(), (Names{"Walk (old 1)", "Wave (old 1)", "Walk", "Wave"}));
-}
-
 TEST_F(StylizeGltf, a_name_tells_styles_and_strengths) {
   write("table.csv", "seconds,sad\n0,0\n0.5,1\n");
   const auto file = styled(
@@ -50,10 +44,6 @@ TEST_F(StylizeGltf, new_motions_take_the_place_of_the_old_when_asked) {
 }
 
 TEST_F(StylizeGltf, one_motion_goes_into_a_bvh) {
-  EXPECT_EQ(
-      stylize("hero.glb --style old=1 -o out.bvh").err,
-      "panache: hero.glb: holds 2 motions ('Walk', 'Wave') and out.bvh takes one; --clip NAME "
-      "picks it\n");
   const auto glb = styled("hero.glb --clip Walk --style old=1 -o out.glb");
   const auto bvh = styled("hero.glb --clip Walk --style old=1 -o out.bvh");
   ASSERT_TRUE(glb && bvh);
@@ -67,14 +57,6 @@ TEST_F(StylizeGltf, a_bvh_goes_into_a_glb) {
   EXPECT_EQ(glb->clip_names(), Names{"walk (old 1)"});
   // The body's legs are those of the canonical one, whose unit is the metre, to rounding.
   expect_same_positions(bvh->clip(), glb->clip(), 1e-3f);
-}
-
-TEST_F(StylizeGltf, a_gltf_goes_into_a_glb_with_all_it_holds) {
-  write("hero.gltf", to_gltf_text(character()));
-  const auto file = styled("hero.gltf --style old=1 -o out.glb");
-  ASSERT_TRUE(file);
-  EXPECT_EQ(file->clip_names().size(), 4u);
-  EXPECT_EQ(glb_parts(read("out.glb")).json["meshes"], character().json["meshes"]);
 }
 
 // A beast without telling names, one of whose motions could be a person's.

@@ -1,5 +1,7 @@
 // How much of a style is given, on which side, and by whom.
 
+#include <set>
+
 #include <nlohmann/json.hpp>
 
 #include "base/quat.h"
@@ -25,47 +27,35 @@ class PartialStyleOptions : public ProgramTest {
   }
 };
 
-TEST_F(PartialStyleOptions, all_at_one_is_the_whole_style) {
-  EXPECT_TRUE(restyled("--posture 1 --dynamics 1 --timing 1 --region legs=1 --region torso=1") ==
-              restyled({}));
-}
-
-TEST_F(PartialStyleOptions, each_changes_the_result) {
+TEST_F(PartialStyleOptions, all_at_one_is_the_whole_style_and_less_is_not) {
   const std::string whole = restyled({});
+  EXPECT_TRUE(restyled("--posture 1 --dynamics 1 --timing 1 --region legs=1 --region torso=1") ==
+              whole);
   for (const char* more : {"--posture 0.5", "--dynamics 0"}) {
     EXPECT_TRUE(restyled(more) != whole) << more;
   }
 }
 
+// What is left of the other arm is tests/style/partial_style_test.cpp.
 TEST_F(PartialStyleOptions, without_timing_and_an_arm_those_are_the_inputs) {
-  restyled("--timing 0");
-  const auto whole = read_motion(path("out.bvh"));
   restyled("--timing 0 --region left_arm=0");
-  const auto without = read_motion(path("out.bvh")), walk = read_motion(path("walk.bvh"));
-  ASSERT_TRUE(whole.ok() && without.ok() && walk.ok());
-  const Clip &a = (*whole)->clip(), &b = (*without)->clip(), &in = (*walk)->clip();
-  ASSERT_EQ(b.frames, in.frames);
-  // How far the rotations of joints whose name begins so are from those of another clip.
-  const auto apart = [&](const Clip& other, const std::string& name) {
+  const auto out = open("out.bvh"), walk = open("walk.bvh");
+  ASSERT_EQ(out->clip().frames, walk->clip().frames);
+  // How far the rotations of a joint are from those of the input.
+  const auto changed = [&](const std::string& name) {
+    const Clip &a = walk->clip(), &b = out->clip();
+    const auto j = static_cast<size_t>(std::ranges::find(a.skeleton.joints, name, &Joint::name) -
+                                       a.skeleton.joints.begin());
     float max = 0;
     for (int f = 0; f < b.frames; ++f) {
-      for (size_t j = 0; j < b.joints(); ++j) {
-        if (!b.skeleton.joints[j].name.starts_with(name)) continue;
-        const Quat turn = conjugate(b.pose(f).rotations[j]) * other.pose(f).rotations[j];
-        max = std::max(max, length(turn.xyz()));
-      }
+      const Quat turn = conjugate(a.pose(f).rotations[j]) * b.pose(f).rotations[j];
+      max = std::max(max, length(turn.xyz()));
     }
     return max;
   };
-  constexpr float kRounding = 1e-5f;  // Of floats, and of six decimals of a degree.
-  for (const char* joint : {"leftUpperArm", "leftLowerArm", "leftHand"}) {
-    EXPECT_LT(apart(in, joint), kRounding) << joint;
-    EXPECT_GT(apart(a, joint), 0.01f) << joint;
-  }
-  for (const char* joint : {"rightUpperArm", "rightLowerArm", "rightHand"}) {
-    // Hands that swing past each other are told apart from both arms.
-    EXPECT_LT(apart(a, joint), 1e-3f) << joint;
-    EXPECT_GT(apart(in, joint), 0.01f) << joint;
+  for (const std::string joint : {"UpperArm", "LowerArm", "Hand"}) {
+    EXPECT_LT(changed("left" + joint), 1e-5f) << joint;  // Floats, six decimals of a degree.
+    EXPECT_GT(changed("right" + joint), 0.01f) << joint;
   }
 }
 
@@ -106,19 +96,20 @@ class PersonOption : public ProgramTest {
   }
 };
 
-TEST_F(PersonOption, is_a_number_or_a_word_each_another_person) {
-  const std::string seven = styled("--person 7");
-  EXPECT_TRUE(seven != read("walk.bvh"));
-  EXPECT_TRUE(styled("--person 7") == seven);
-  EXPECT_TRUE(styled("--person 8") != seven);
-  EXPECT_TRUE(styled("--person mara") != styled("--person marb"));
-  EXPECT_TRUE(styled("--person 7 --style old=1") != styled("--style old=1"));
-}
-
-TEST_F(PersonOption, of_variety_0_is_the_input_bit_for_bit) {
-  EXPECT_TRUE(styled("--person 7 --variety 0") == read("walk.bvh"));
-  EXPECT_TRUE(styled("--person 7 --variety 2") != styled("--person 7"));
-  EXPECT_TRUE(styled("--person 7 --variety 1") == styled("--person 7"));
+TEST_F(PersonOption, and_energy_change_the_motion_each_value_otherwise_and_neutral_ones_not) {
+  const std::string walk = read("walk.bvh"), seven = styled("--person 7"),
+                    old = styled("--style old=1");
+  const std::pair<const char*, std::string> same[] = {{"--person 7", seven},
+                                                      {"--person 7 --variety 1", seven},
+                                                      {"--person 7 --variety 0", walk},
+                                                      {"--style old=1 --energy 1", old}};
+  for (const auto& [options, expected] : same) EXPECT_TRUE(styled(options) == expected) << options;
+  std::set<std::string> all = {walk, seven, old};
+  for (const char* options :
+       {"--person 8", "--person mara", "--person marb", "--person 7 --style old=1",
+        "--person 7 --variety 2", "--energy 0.4", "--energy 1.6"}) {
+    EXPECT_TRUE(all.insert(styled(options)).second) << options;
+  }
 }
 
 TEST_F(PersonOption, random_is_another_one_for_each_file_and_the_same_for_equal_seeds) {
@@ -160,12 +151,6 @@ TEST_F(PersonOption, names_the_result) {
   EXPECT_TRUE(exists("walk-calm.bvh"));
 }
 
-TEST_F(PersonOption, energy_of_1_is_the_input_bit_for_bit_and_others_are_not) {
-  EXPECT_TRUE(styled("--energy 0.4") != read("walk.bvh"));
-  EXPECT_TRUE(styled("--energy 0.4") != styled("--energy 1.6"));
-  EXPECT_TRUE(styled("--style old=1 --energy 1") == styled("--style old=1"));
-}
-
 // The sides of styles: --side of stylize and live, and what styles and stylize say of them.
 
 class SideOption : public ProgramTest {
@@ -188,14 +173,15 @@ class SideOption : public ProgramTest {
 };
 
 TEST_F(SideOption, takes_the_captured_or_the_other_side_by_any_of_its_names) {
-  const std::string captured = styled("--style old=1");
-  EXPECT_TRUE(styled("--style old=1 --side old=right") == captured);
-  EXPECT_TRUE(styled("--style old=1 --side OLD=captured") == captured);
-  EXPECT_TRUE(styled("--style old=1 --side old=1") == captured);
-  const std::string mirrored = styled("--style old=1 --side old=left");
+  const std::string captured = styled("--style old=1"),
+                    mirrored = styled("--style old=1 --side old=left");
   EXPECT_TRUE(mirrored != captured);
-  EXPECT_TRUE(styled("--style old=1 --side old=mirrored") == mirrored);
-  EXPECT_TRUE(styled("--style old=1 --side old=-1") == mirrored);
+  for (const char* side : {"old=right", "OLD=captured", "old=1"}) {
+    EXPECT_TRUE(styled({"--style", "old=1", "--side", side}) == captured) << side;
+  }
+  for (const char* side : {"old=mirrored", "old=-1"}) {
+    EXPECT_TRUE(styled({"--style", "old=1", "--side", side}) == mirrored) << side;
+  }
   const std::string between = styled("--style old=1 --side old=0.5");
   EXPECT_TRUE(between != captured && between != mirrored);
   // Another style's side is its own.
@@ -215,29 +201,26 @@ TEST_F(SideOption, names_result_and_motion) {
 }
 
 TEST_F(SideOption, that_makes_no_sense_is_rejected_with_the_cure) {
-  const auto message = [&](const std::string& side) {
-    const Ran ran = run({"stylize", "walk.bvh", "-o", "none.bvh", "--style", "old=1", "--style",
-                         "proud=1", "--side", side});
-    EXPECT_EQ(ran.exit, 2);
-    EXPECT_FALSE(exists("none.bvh"));
-    return ran.err;
+  const std::pair<const char*, const char*> cases[] = {
+      {"proud=left",
+       "the model does not say which side style 'proud' was captured on, so 'left' is unknown; "
+       "expected captured, mirrored or a number from -1 to 1"},
+      {"old=up",
+       "unknown side 'up' of style 'old'; expected left, right, captured, mirrored or a number "
+       "from -1 to 1"},
+      {"old=2", "expected a side from -1 to 1, found '2'"},
+      {"old", "expected a style and a side, as in 'old=mirrored'"},
+      {"sad=right", "style 'sad' is not put on; add --style sad=1, or leave the side out"},
   };
-  EXPECT_EQ(message("proud=left"),
-            "panache: --side proud=left: the model does not say which side style 'proud' was "
-            "captured on, so 'left' is unknown; expected captured, mirrored or a number from -1 to "
-            "1\n");
-  EXPECT_EQ(message("old=up"),
-            "panache: --side old=up: unknown side 'up' of style 'old'; expected left, right, "
-            "captured, mirrored or a number from -1 to 1\n");
-  EXPECT_EQ(message("old=2"), "panache: --side old=2: expected a side from -1 to 1, found '2'\n");
-  EXPECT_EQ(message("old"),
-            "panache: --side old: expected a style and a side, as in 'old=mirrored'\n");
-  EXPECT_EQ(message("sad=right"),
-            "panache: --side sad=right: style 'sad' is not put on; add --style sad=1, or leave the "
-            "side out\n");
-  EXPECT_TRUE(holds(message("olld=left"), "unknown style 'olld'"));
-  EXPECT_EQ(run("stylize walk.bvh --style old=1 --side old=left --side old=right").err,
-            "panache: --side old=right: this style has a side already; expected each style once\n");
+  for (const auto& [side, message] : cases) {
+    expect_rejected({"stylize", "walk.bvh", "-o", "none.bvh", "--style", "old=1", "--style",
+                     "proud=1", "--side", side},
+                    2, "--side " + std::string(side) + ": " + message);
+  }
+  EXPECT_TRUE(
+      holds(run("stylize walk.bvh --style old=1 --side olld=left").err, "unknown style 'olld'"));
+  expect_rejected("stylize walk.bvh --style old=1 --side old=left --side old=right", 2,
+                  "--side old=right: this style has a side already; expected each style once");
 }
 
 TEST_F(SideOption, of_a_recipe_without_sides_is_rejected) {

@@ -57,11 +57,15 @@ class ViewVerb : public ProgramTest {
     return line;
   }
 
-  // The whole answer to a GET of `target`.
-  static std::string get(int port, const std::string& target, const std::string& host) {
-    return ask(port,
-               "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n\r\n");
+  // The whole answer to a request, which names the server as its host unless `headers` do.
+  std::string get(const std::string& target, const std::string& headers = "",
+                  const std::string& method = "GET") const {
+    const bool has_host = headers.starts_with("Host:") || headers == kNoHost;
+    return ask(port_, method + " " + target + " HTTP/1.1\r\n" +
+                          (has_host ? "" : "Host: " + host() + "\r\n") +
+                          (headers == kNoHost ? "" : headers) + "Connection: close\r\n\r\n");
   }
+  std::string host() const { return "127.0.0.1:" + std::to_string(port_); }
   // The whole answer to `question`; empty where nobody listens.
   static std::string ask(int port, const std::string& question, const char* at = "127.0.0.1") {
     const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
@@ -83,14 +87,17 @@ class ViewVerb : public ProgramTest {
   }
   static std::string status(const std::string& answer) { return answer.substr(0, 12); }
 
-  // Starts it with "web/index.html" as its page; its port.
-  int serve_page() {
+  // Starts it with "web/index.html" as its page.
+  void serve_page() {
     write("web/index.html", "the page");
     const std::string line = serve("walk one.bvh", "model.safetensors");
     const std::string begin = "http://127.0.0.1:";
-    return line.starts_with(begin) ? std::atoi(line.c_str() + begin.size()) : 0;
+    if (line.starts_with(begin)) port_ = std::atoi(line.c_str() + begin.size());
+    ASSERT_GT(port_, 0) << line;
   }
 
+  static constexpr const char* kNoHost = "no host";
+  int port_ = 0;
   std::string program_;
   pid_t server_ = 0;
 };
@@ -110,40 +117,34 @@ TEST_F(ViewVerb, explains_a_missing_page_and_a_damaged_file) {
   EXPECT_TRUE(begins(ran.err, "panache: damaged.safetensors: "));
 }
 
-TEST_F(ViewVerb, serves_page_and_file_and_nothing_else_under_no_name_but_its_own) {
+TEST_F(ViewVerb, serves_page_file_and_model_and_nothing_else) {
   write("web/index.html", "the page");
   std::filesystem::copy_file(path("model.safetensors"), path("my model.safetensors"));
   const std::string line = serve("walk one.bvh", "my model.safetensors");
   const std::string begin = "http://127.0.0.1:",
                     end = "/?open=walk%20one.bvh&model=my%20model.safetensors";
   ASSERT_TRUE(line.starts_with(begin) && line.ends_with(end)) << line;
-  const std::string digits = line.substr(begin.size(), line.size() - begin.size() - end.size());
-  const int port = std::stoi(digits);
-  const std::string host = "127.0.0.1:" + digits;
-
-  const std::string page = get(port, "/", host);
-  EXPECT_EQ(status(page), "HTTP/1.1 200");
-  EXPECT_TRUE(page.ends_with("the page"));
-  const std::string file = get(port, "/open/walk%20one.bvh", host);
-  EXPECT_EQ(status(file), "HTTP/1.1 200");
-  EXPECT_TRUE(file.ends_with(read("walk one.bvh")));
-  const std::string model = get(port, "/model/my%20model.safetensors", host);
-  EXPECT_EQ(status(model), "HTTP/1.1 200");
-  EXPECT_TRUE(model.ends_with(read("my model.safetensors")));
-
-  EXPECT_EQ(status(get(port, "/../model.safetensors", host)), "HTTP/1.1 404");
-  EXPECT_EQ(status(get(port, "/%2e%2e/model.safetensors", host)), "HTTP/1.1 404");
-  EXPECT_EQ(status(get(port, "/", "example.org")), "HTTP/1.1 403");
+  port_ = std::stoi(line.substr(begin.size()));
+  const std::pair<const char*, std::string> served[] = {
+      {"/", "the page"},
+      {"/open/walk%20one.bvh", read("walk one.bvh")},
+      {"/model/my%20model.safetensors", read("my model.safetensors")}};
+  for (const auto& [target, content] : served) {
+    const std::string answer = get(target);
+    EXPECT_EQ(status(answer), "HTTP/1.1 200") << target;
+    EXPECT_TRUE(answer.ends_with("\r\n\r\n" + content)) << target;
+  }
+  EXPECT_EQ(status(get("/../model.safetensors")), "HTTP/1.1 404");
+  EXPECT_EQ(status(get("/%2e%2e/model.safetensors")), "HTTP/1.1 404");
 }
 
 TEST_F(ViewVerb, listens_on_the_loopback_address_only) {
-  const int port = serve_page();
-  ASSERT_GT(port, 0);
+  serve_page();
   // Linux takes all of 127.0.0.0/8 for this machine: who listens on every address answers here too.
   const std::string question =
-      "GET / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\nConnection: close\r\n\r\n";
-  EXPECT_EQ(status(ask(port, question)), "HTTP/1.1 200");
-  EXPECT_EQ(ask(port, question, "127.0.0.2"), "");
+      "GET / HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\n\r\n";
+  EXPECT_EQ(status(ask(port_, question)), "HTTP/1.1 200");
+  EXPECT_EQ(ask(port_, question, "127.0.0.2"), "");
 }
 
 TEST_F(ViewVerb, serves_its_own_files_only_however_the_path_is_written) {
@@ -151,60 +152,63 @@ TEST_F(ViewVerb, serves_its_own_files_only_however_the_path_is_written) {
   write("web/secrets/in.txt", "in the page's folder");
   std::filesystem::create_directory(path("webbed"));
   write("webbed/secret.txt", "secret");
-  const int port = serve_page();
-  ASSERT_GT(port, 0);
-  const std::string host = "127.0.0.1:" + std::to_string(port);
-  EXPECT_EQ(status(get(port, "/secrets/in.txt", host)), "HTTP/1.1 200");
-  for (const std::string target :
-       {"/../secret.txt", "/secrets/../../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt",
-        "/%2e%2e%2fsecret.txt", "/..%5csecret.txt", "/..\\secret.txt", "/%252e%252e/secret.txt",
-        "//secret.txt", "/./../secret.txt", "/../webbed/secret.txt", "/%00/../secret.txt",
-        "/secrets/%2e%2e/%2e%2e/secret.txt", "/%c0%ae%c0%ae/secret.txt", "secret.txt",
-        "../secret.txt"}) {
-    const std::string answer = get(port, target, host);
+  serve_page();
+  EXPECT_EQ(status(get("/secrets/in.txt")), "HTTP/1.1 200");
+  const std::string outside = path("secret.txt");
+  const std::string targets[] = {"/../secret.txt",
+                                 "/secrets/../../secret.txt",
+                                 "/%2e%2e/secret.txt",
+                                 "/..%2fsecret.txt",
+                                 "/%2e%2e%2fsecret.txt",
+                                 "/..%5csecret.txt",
+                                 "/..\\secret.txt",
+                                 "/%252e%252e/secret.txt",
+                                 "//secret.txt",
+                                 "/./../secret.txt",
+                                 "/../webbed/secret.txt",
+                                 "/%00/../secret.txt",
+                                 "/secrets/%2e%2e/%2e%2e/secret.txt",
+                                 "/%c0%ae%c0%ae/secret.txt",
+                                 "secret.txt",
+                                 "../secret.txt",
+                                 outside,
+                                 "http://" + host() + outside};
+  for (const std::string& target : targets) {
+    const std::string answer = get(target);
     EXPECT_NE(status(answer), "HTTP/1.1 200") << target;
-    EXPECT_FALSE(holds(answer, "secret\n")) << target;
     EXPECT_FALSE(answer.ends_with("secret")) << target;
   }
-  EXPECT_NE(status(get(port, path("secret.txt"), host)), "HTTP/1.1 200");
-  EXPECT_NE(status(get(port, "http://" + host + path("secret.txt"), host)), "HTTP/1.1 200");
 }
 
 TEST_F(ViewVerb, rejects_other_hosts_other_origins_and_whatever_is_not_read) {
-  const int port = serve_page();
-  ASSERT_GT(port, 0);
-  const std::string digits = std::to_string(port), host = "127.0.0.1:" + digits;
-  const auto answer = [&](const std::string& method, const std::string& headers) {
-    return status(ask(port, method + " / HTTP/1.1\r\n" + headers + "Connection: close\r\n\r\n"));
+  serve_page();
+  // '@' is the port.
+  const auto answer = [&](std::string headers, const std::string& method = "GET") {
+    for (size_t at; (at = headers.find('@')) != headers.npos;) {
+      headers.replace(at, 1, std::to_string(port_));
+    }
+    return status(get("/", headers, method));
   };
-  const std::string own = "Host: " + host + "\r\n";
-  EXPECT_EQ(answer("GET", own), "HTTP/1.1 200");
-  EXPECT_EQ(answer("GET", "Host: localhost:" + digits + "\r\n"), "HTTP/1.1 200");
-  EXPECT_EQ(answer("GET", own + "Origin: http://" + host + "\r\n"), "HTTP/1.1 200");
-  for (const std::string other :
-       {"", "Host: \r\n", "Host: 127.0.0.1\r\n", "Host: 127.0.0.1:1\r\n", "Host: 127.0.0.2:@\r\n",
-        "Host: 127.0.0.1:@.example.org\r\n", "Host: example.org\r\n",
-        "Host: 127.0.0.1:@\r\nHost: example.org\r\n"}) {
-    std::string headers = other;
-    if (const size_t at = headers.find('@'); at != std::string::npos)
-      headers.replace(at, 1, digits);
-    EXPECT_EQ(answer("GET", headers), "HTTP/1.1 403") << headers;
+  for (const char* own : {"", "Host: localhost:@\r\n", "Origin: http://127.0.0.1:@\r\n"}) {
+    EXPECT_EQ(answer(own), "HTTP/1.1 200") << own;
   }
-  for (const std::string origin :
-       {"null", "http://example.org", "https://127.0.0.1:@", "http://127.0.0.1", "127.0.0.1:@",
-        "http://127.0.0.1:@.example.org", "http://example.org:@"}) {
-    std::string header = origin;
-    if (const size_t at = header.find('@'); at != std::string::npos) header.replace(at, 1, digits);
-    EXPECT_EQ(answer("GET", own + "Origin: " + header + "\r\n"), "HTTP/1.1 403") << header;
+  for (const char* other :
+       {kNoHost, "Host: \r\n", "Host: 127.0.0.1\r\n", "Host: 127.0.0.1:1\r\n",
+        "Host: 127.0.0.2:@\r\n", "Host: 127.0.0.1:@.example.org\r\n", "Host: example.org\r\n",
+        "Host: 127.0.0.1:@\r\nHost: example.org\r\n", "Origin: null\r\n",
+        "Origin: http://example.org\r\n", "Origin: https://127.0.0.1:@\r\n",
+        "Origin: http://127.0.0.1\r\n", "Origin: 127.0.0.1:@\r\n",
+        "Origin: http://127.0.0.1:@.example.org\r\n", "Origin: http://example.org:@\r\n"}) {
+    EXPECT_EQ(answer(other), "HTTP/1.1 403") << other;
   }
-  for (const std::string method : {"POST", "PUT", "DELETE", "PATCH", "OPTIONS"}) {
-    EXPECT_EQ(answer(method, own + "Content-Length: 0\r\n"), "HTTP/1.1 405") << method;
+  for (const char* method : {"POST", "PUT", "DELETE", "PATCH", "OPTIONS"}) {
+    EXPECT_EQ(answer("Content-Length: 0\r\n", method), "HTTP/1.1 405") << method;
   }
   // A body that is a request itself is not answered.
-  const std::string inner = "GET / HTTP/1.1\r\n" + own + "\r\n";
+  const std::string own = "Host: " + host() + "\r\n", inner = "GET / HTTP/1.1\r\n" + own + "\r\n";
   const std::string twice =
-      ask(port, "POST / HTTP/1.1\r\n" + own + "Content-Length: " + std::to_string(inner.size()) +
-                    "\r\n\r\n" + inner);
+      ask(port_, "POST / HTTP/1.1\r\n" + own + "Content-Length: " + std::to_string(inner.size()) +
+                     "\r\n\r\n" + inner);
   EXPECT_EQ(status(twice), "HTTP/1.1 405");
   EXPECT_FALSE(holds(twice, "the page"));
 }
@@ -221,15 +225,9 @@ TEST_F(ViewVerb, sends_what_is_stored_compressed_and_nothing_that_the_browser_ha
   write("web/main.js", "let plain;");
   write("web/main.js.br", "as stored");
   write("web/alone.js.br", "without an original");
-  const int port = serve_page();
-  ASSERT_GT(port, 0);
-  const std::string host = "Host: 127.0.0.1:" + std::to_string(port) + "\r\n";
-  const auto answer = [&](const std::string& path, const std::string& headers) {
-    return ask(port,
-               "GET " + path + " HTTP/1.1\r\n" + host + headers + "Connection: close\r\n\r\n");
-  };
+  serve_page();
   for (const std::string wanted : {"gzip, deflate, br", "br,gzip", "br;q=0.5"}) {
-    const std::string packed = answer("/main.js", "Accept-Encoding: " + wanted + "\r\n");
+    const std::string packed = get("/main.js", "Accept-Encoding: " + wanted + "\r\n");
     EXPECT_TRUE(packed.ends_with("\r\n\r\nas stored")) << packed;
     EXPECT_EQ(header(packed, "Content-Encoding"), "br");
     EXPECT_EQ(header(packed, "Vary"), "Accept-Encoding");
@@ -237,27 +235,27 @@ TEST_F(ViewVerb, sends_what_is_stored_compressed_and_nothing_that_the_browser_ha
   }
   for (const std::string wanted :
        {"", "Accept-Encoding: gzip\r\n", "Accept-Encoding: br;q=0\r\n"}) {
-    const std::string plain = answer("/main.js", wanted);
+    const std::string plain = get("/main.js", wanted);
     EXPECT_TRUE(plain.ends_with("\r\n\r\nlet plain;")) << plain;
     EXPECT_EQ(header(plain, "Content-Encoding"), "");
   }
-  EXPECT_EQ(status(answer("/main.js.br", "")), "HTTP/1.1 404");
-  EXPECT_EQ(status(answer("/alone.js", "Accept-Encoding: br\r\n")), "HTTP/1.1 404");
+  EXPECT_EQ(status(get("/main.js.br")), "HTTP/1.1 404");
+  EXPECT_EQ(status(get("/alone.js", "Accept-Encoding: br\r\n")), "HTTP/1.1 404");
 
   const std::string accepts = "Accept-Encoding: br\r\n";
-  const std::string tag = header(answer("/main.js", accepts), "ETag");
-  const std::string plain_tag = header(answer("/main.js", ""), "ETag");
+  const std::string tag = header(get("/main.js", accepts), "ETag");
+  const std::string plain_tag = header(get("/main.js"), "ETag");
   EXPECT_EQ(tag.size(), 18u);
   EXPECT_NE(tag, plain_tag);
-  EXPECT_NE(tag, header(answer("/", ""), "ETag"));
+  EXPECT_NE(tag, header(get("/"), "ETag"));
   for (const std::string& known : {tag, "W/" + tag, "\"other\", " + tag}) {
-    const std::string same = answer("/main.js", accepts + "If-None-Match: " + known + "\r\n");
+    const std::string same = get("/main.js", accepts + "If-None-Match: " + known + "\r\n");
     EXPECT_EQ(status(same), "HTTP/1.1 304") << known;
     EXPECT_TRUE(same.ends_with("\r\n\r\n")) << same;
     EXPECT_EQ(header(same, "ETag"), tag);
   }
   for (const std::string& other : {std::string("\"other\""), plain_tag}) {
-    EXPECT_EQ(status(answer("/main.js", accepts + "If-None-Match: " + other + "\r\n")),
+    EXPECT_EQ(status(get("/main.js", accepts + "If-None-Match: " + other + "\r\n")),
               "HTTP/1.1 200");
   }
 }
@@ -289,9 +287,8 @@ TEST_F(ViewVerb, opens_the_browser_of_a_desktop_unless_told_not_to) {
 }
 
 TEST_F(ViewVerb, keeps_pages_of_others_from_showing_or_reading_it) {
-  const int port = serve_page();
-  ASSERT_GT(port, 0);
-  const std::string answer = get(port, "/", "127.0.0.1:" + std::to_string(port));
+  serve_page();
+  const std::string answer = get("/");
   for (const std::string header :
        {"Cross-Origin-Resource-Policy: same-origin\r\n", "X-Content-Type-Options: nosniff\r\n",
         "frame-ancestors 'none'"}) {
@@ -318,16 +315,15 @@ pid_t start_where_fails(int call, int error, const std::function<pid_t()>& start
 
 TEST_F(ViewVerb, fails_with_the_reason_where_it_cannot_listen) {
   write("web/index.html", "the page");
+  const std::string no_port = "panache: 127.0.0.1: no port to serve the page on: ",
+                    hint = "; is the loopback interface up, and may programs listen on it?\n";
   const struct {
     int call, error;
     std::string begin, end;
   } cases[] = {
-      {SCMP_SYS(socket), EMFILE, "panache: 127.0.0.1: no port to serve the page on: ",
-       "Too many open files; is the loopback interface up, and may programs listen on it?\n"},
-      {SCMP_SYS(bind), EADDRINUSE, "panache: 127.0.0.1: no port to serve the page on: ",
-       "Address already in use; is the loopback interface up, and may programs listen on it?\n"},
-      {SCMP_SYS(listen), EADDRINUSE, "panache: 127.0.0.1: no port to serve the page on: ",
-       "Address already in use; is the loopback interface up, and may programs listen on it?\n"},
+      {SCMP_SYS(socket), EMFILE, no_port, "Too many open files" + hint},
+      {SCMP_SYS(bind), EADDRINUSE, no_port, "Address already in use" + hint},
+      {SCMP_SYS(listen), EADDRINUSE, no_port, "Address already in use" + hint},
       {SCMP_SYS(accept), EPERM,
        "panache: open this address in a browser; Ctrl-C ends\npanache: 127.0.0.1:",
        ": listening failed, so the page is not served any more\n"},

@@ -53,13 +53,6 @@ TEST(VmcCoordinates, a_rotated_point_changes_like_any_other) {
   }
 }
 
-// A turn to the right is a positive one about Unity's y, and a negative one about ours.
-TEST(VmcCoordinates, a_turn_to_the_right_stays_one) {
-  const Quat right = rotation_y(0.5f);
-  EXPECT_GT(rotate(right, Vec3{0, 0, 1}).x, 0);                     // Unity's right is +x,
-  EXPECT_LT(rotate(mirrored_rotation(right), Vec3{0, 0, 1}).x, 0);  // ours -x.
-}
-
 // Mirroring and smoothing of tracked poses.
 
 using cli::VmcFilter;
