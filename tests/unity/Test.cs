@@ -64,7 +64,8 @@ static class Test {
     public bool Culled;
     public bool HasChest => Animator.GetBoneTransform(HumanBodyBones.Chest) != null ||
                             Animator.GetBoneTransform(HumanBodyBones.UpperChest) != null;
-    public Actor(TextAsset model, float scale = 1, Func<HumanBodyBones, HumanBodyBones> rename = null) {
+    public Actor(TextAsset model, float scale = 1, Func<HumanBodyBones, HumanBodyBones> rename = null,
+                 float old = 0) {
       Scale = scale;
       var root = new GameObject("actor");
       Animator = root.AddComponent<Animator>();
@@ -87,6 +88,7 @@ static class Test {
       prop.parent = Bones[names.IndexOf("rightHand")];
       Component = root.AddComponent<PanacheCharacter>();
       Component.model = model;
+      if (old != 0) Component.SetStrength("Old", old);
     }
     public void Call(string message) => typeof(PanacheCharacter)
         .GetMethod(message, BindingFlags.Instance | BindingFlags.NonPublic).Invoke(Component, null);
@@ -124,15 +126,16 @@ static class Test {
   // What the library itself makes of the same walk below the same root, and that mirrored.
   sealed class Reference {
     public readonly Panache.Character Character;
-    public Reference(Panache.Model model, bool holdFeet = true, bool styleRoot = false) {
+    public Reference(Panache.Model model, float old = 0, bool styleRoot = false) {
       var joints = new List<Panache.Joint> { new Panache.Joint { Name = "root" } };
       for (int j = 0; j < names.Count; ++j)
         joints.Add(new Panache.Joint { Name = names[j], Parent = parents[j] + 1,
                                        Translation = offsets[j] });
       Character = new Panache.Character(model, new Panache.Skeleton(joints),
                                         new Panache.CharacterOptions {
-                                          HoldFeet = holdFeet ? 1 : 0, StyleRoot = styleRoot ? 1 : 0
+                                          HoldFeet = 1, StyleRoot = styleRoot ? 1 : 0
                                         });
+      Character.SetStrength("old", old);
     }
     public float[] Play(int frame) {
       int count = names.Count;
@@ -154,18 +157,30 @@ static class Test {
     }
   }
 
+  // The component has the library's pose in every frame, while `change` changes both alike before
+  // some; how far that is from the pose of `plain`, at most.
+  static float Follow(Actor actor, Reference reference, Reference plain, int frames, string what,
+                      Action<int> change) {
+    float apart = 0;
+    for (int f = 0; f < frames; ++f) {
+      change(f);
+      float[] pose = reference.Play(f);
+      Expect(actor.Play(f).SequenceEqual(pose), what + " in frame " + f);
+      apart = Math.Max(apart, Apart(plain.Play(f), pose));
+    }
+    return apart;
+  }
+
   static float Apart(float[] a, float[] b) => a.Zip(b, (x, y) => Math.Abs(x - y)).Max();
 
   // ---- Tests -----------------------------------------------------------------------------------
 
   static void AStyledWalkIsTheLibrarysMirrored(TextAsset file, Panache.Model model) {
     foreach (bool root in new[] { false, true }) {
-      var actor = new Actor(file);
+      var actor = new Actor(file, old: 1);
       actor.Component.styleRoot = root;
-      actor.Component.SetStrength("Old", 1);
       actor.Start();
-      var reference = new Reference(model, styleRoot: root);
-      reference.Character.SetStrength("old", 1);
+      var reference = new Reference(model, 1, root);
       float away = 0;
       for (int f = 0; f < walk.FrameCount; ++f) {
         Expect(actor.Play(f, 12.5f).SequenceEqual(reference.Play(f)), "the library's pose in frame " + f);
@@ -177,11 +192,8 @@ static class Test {
   }
 
   static void AScaledArmatureIsStyledAlike(TextAsset file, Panache.Model model) {
-    var actor = new Actor(file, 0.01f);
-    actor.Component.SetStrength("old", 1);
-    actor.Start();
-    var reference = new Reference(model);
-    reference.Character.SetStrength("old", 1);
+    var actor = new Actor(file, 0.01f, old: 1).Start();
+    var reference = new Reference(model, 1);
     for (int f = 0; f < walk.FrameCount; ++f)
       Expect(Apart(actor.Play(f), reference.Play(f)) < 1e-3f, "the same pose in frame " + f);
   }
@@ -218,10 +230,8 @@ static class Test {
   }
 
   static void APoseThatWasNotAnimatedIsNotStyledTwice(TextAsset file) {
-    var actors = new[] { new Actor(file), new Actor(file) };
+    var actors = new[] { new Actor(file, old: 1).Start(), new Actor(file, old: 1).Start() };
     foreach (Actor actor in actors) {
-      actor.Component.SetStrength("old", 1);
-      actor.Start();
       for (int f = 0; f < 60; ++f) actor.Play(f);
     }
     // One is animated as before, the other is not animated at all.
@@ -259,25 +269,15 @@ static class Test {
   }
 
   static void SidesAreTheLibrarys(TextAsset file, Panache.Model model) {
-    var actor = new Actor(file);
-    actor.Component.SetStrength("old", 1);
+    var actor = new Actor(file, old: 1);
     actor.Component.SetSide("OLD", -1);
-    actor.Start();
-    var reference = new Reference(model);
-    reference.Character.SetStrength("old", 1);
+    var reference = new Reference(model, 1);
     reference.Character.SetSide("old", -1);
-    var captured = new Reference(model);
-    captured.Character.SetStrength("old", 1);
-    float apart = 0;
-    for (int f = 0; f < 120; ++f) {
-      if (f == 60) {
-        actor.Component.SetSide("old", 0.5f);
-        reference.Character.SetSide("old", 0.5f);
-      }
-      float[] pose = reference.Play(f);
-      Expect(actor.Play(f).SequenceEqual(pose), "the library's pose in frame " + f);
-      apart = Math.Max(apart, Apart(captured.Play(f), pose));
-    }
+    float apart = Follow(actor.Start(), reference, new Reference(model, 1), 120, "a side", f => {
+      if (f != 60) return;
+      actor.Component.SetSide("old", 0.5f);
+      reference.Character.SetSide("old", 0.5f);
+    });
     Expect(apart > 0.01f, "another side than the captured one");
     Expect(actor.Component.styles.Count == 1, "one entry for a style");
   }
@@ -301,9 +301,7 @@ static class Test {
     }
     var changing = new Actor(file).Start();
     var expected = new Reference(model);
-    var nobody = new Reference(model);
-    float apart = 0;
-    for (int f = 0; f < 240; ++f) {
+    float apart = Follow(changing, expected, new Reference(model), 180, "the person", f => {
       if (f == 30) {
         changing.Component.person = "mara";
         changing.Component.variety = 1.5f;
@@ -315,33 +313,20 @@ static class Test {
         changing.Component.person = null;
         expected.Character.SetPerson(0, 0);
       }
-      float[] pose = changing.Play(f % walk.FrameCount), plain = nobody.Play(f % walk.FrameCount);
-      Expect(pose.SequenceEqual(expected.Play(f % walk.FrameCount)), "the person in frame " + f);
-      if (f < 30) Expect(pose.SequenceEqual(plain), "nobody in frame " + f);
-      if (f < 150) apart = Math.Max(apart, Apart(pose, plain));
-    }
+    });
     Expect(apart > 0.01f, "another person");
   }
 
   static uint Seed(string word) => Panache.Model.PersonSeed(word);
 
   static void EnergyIsTheLibrarys(TextAsset file, Panache.Model model) {
-    var actor = new Actor(file);
-    actor.Component.shape.energy = 0.3f;
-    actor.Start();
+    var actor = new Actor(file).Start();
     var reference = new Reference(model);
-    reference.Character.SetShape(new Panache.Shape { Energy = 0.3f });
-    var plain = new Reference(model);
-    float apart = 0;
-    for (int f = 0; f < 90; ++f) {
-      if (f == 60) {
-        actor.Component.shape.energy = 1.7f;
-        reference.Character.SetShape(new Panache.Shape { Energy = 1.7f });
-      }
-      float[] pose = reference.Play(f);
-      Expect(actor.Play(f).SequenceEqual(pose), "the library's pose in frame " + f);
-      apart = Math.Max(apart, Apart(plain.Play(f), pose));
-    }
+    float apart = Follow(actor, reference, new Reference(model), 90, "an energy", f => {
+      if (f % 60 != 0) return;
+      actor.Component.shape.energy = f == 0 ? 0.3f : 1.7f;
+      reference.Character.SetShape(new Panache.Shape { Energy = f == 0 ? 0.3f : 1.7f });
+    });
     Expect(apart > 0.01f, "a calmer walk");
   }
 
@@ -369,11 +354,8 @@ static class Test {
   }
 
   static void ATeleportStartsAfresh(TextAsset file, Panache.Model model) {
-    var actor = new Actor(file);
-    actor.Component.SetStrength("old", 1);
-    actor.Start();
-    var fresh = new Reference(model);
-    fresh.Character.SetStrength("old", 1);
+    var actor = new Actor(file, old: 1).Start();
+    var fresh = new Reference(model, 1);
     for (int f = 0; f < 60; ++f) fresh.Play(f);
     for (int f = 0; f < 60; ++f) actor.Play(f);
     actor.Component.ResetMotion();
@@ -400,9 +382,8 @@ static class Test {
                                     new[] { HumanBodyBones.Neck, HumanBodyBones.LeftShoulder,
                                             HumanBodyBones.RightShoulder },
                                     new[] { HumanBodyBones.LeftToes, HumanBodyBones.RightToes } }) {
-        var actor = new Actor(file, 1, rename);
+        var actor = new Actor(file, 1, rename, old: 1);
         foreach (HumanBodyBones bone in lacks) actor.Animator.Bones.Remove(bone);
-        actor.Component.SetStrength("old", 1);
         actor.Start();
         Expect(actor.Component.enabled, "a humanoid without " + string.Join(", ", lacks) + ": " +
                                             string.Join("; ", Debug.Errors));
@@ -414,23 +395,19 @@ static class Test {
   }
 
   static void WhatIsMissingIsTold(TextAsset file) {
-    var actor = new Actor(file);
-    actor.Animator.isHuman = false;
+    var noAvatar = new Actor(file);
+    noAvatar.Animator.isHuman = false;
+    ExpectDisabled(noAvatar, "no humanoid avatar");
+    ExpectDisabled(new Actor(null), "expected a model, found none");
+    ExpectDisabled(new Actor(new TextAsset { bytes = new byte[] { 1, 2, 3 } }),
+                   "expected a safetensors file");
+    var noFoot = new Actor(file);
+    noFoot.Animator.Bones.Remove(HumanBodyBones.LeftFoot);
+    ExpectDisabled(noFoot, "leftFoot");
+  }
+  static void ExpectDisabled(Actor actor, string message) {
     actor.Start();
-    Expect(!actor.Component.enabled && Debug.Errors.Single().Contains("no humanoid avatar"), "no avatar");
-    Debug.Errors.Clear();
-    actor = new Actor(null).Start();
-    Expect(!actor.Component.enabled && Debug.Errors.Single().EndsWith("expected a model, found none"),
-           "no model");
-    Debug.Errors.Clear();
-    actor = new Actor(new TextAsset { bytes = new byte[] { 1, 2, 3 } }).Start();
-    Expect(!actor.Component.enabled && Debug.Errors.Single().Contains("expected a safetensors file"),
-           "no model file");
-    Debug.Errors.Clear();
-    actor = new Actor(file);
-    actor.Animator.Bones.Remove(HumanBodyBones.LeftFoot);
-    actor.Start();
-    Expect(!actor.Component.enabled && Debug.Errors.Single().Contains("leftFoot"), "no left foot");
+    Expect(!actor.Component.enabled && Debug.Errors.Single().Contains(message), message);
     Debug.Errors.Clear();
   }
 
