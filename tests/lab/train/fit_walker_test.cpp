@@ -14,8 +14,7 @@
 #include "clip/bvh.h"
 #include "learn/fit_style.h"
 #include "make_clip.h"
-#include "takes/load_takes.h"
-#include "takes/manifest.h"
+#include "temporary_folder.h"
 #include "train/gait_take.h"
 
 namespace panache {
@@ -44,20 +43,14 @@ TEST(Ridge, stays_with_the_prior_where_the_rows_say_nothing) {
 
 class FitWalker : public testing::Test {
  protected:
-  void SetUp() override {
-    char name[] = "/tmp/panache-test-XXXXXX";
-    ASSERT_NE(::mkdtemp(name), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string write_walk() const {
-    const std::string path = folder_ + "/walk.bvh";
+    const std::string path = folder_ + "walk.bvh";
     EXPECT_TRUE(write_file(path, format_bvh(test::walking_clip(150)), true).ok());
     return path;
   }
 
-  std::string folder_;
+  const test::TemporaryFolder temporary_;
+  const std::string folder_ = temporary_.path();
 };
 
 TEST_F(FitWalker, sees_speed_and_cadence_of_a_walk) {
@@ -89,7 +82,7 @@ TEST_F(FitWalker, sees_no_gait_in_someone_who_stands) {
     std::copy_n(clip.translations.begin(), clip.joints(), clip.pose(f).translations.begin());
   }
   ManifestRow row;
-  row.path = folder_ + "/stand.bvh";
+  row.path = folder_ + "stand.bvh";
   ASSERT_TRUE(write_file(row.path, format_bvh(clip), true).ok());
   const Result<Take> take = load_take(row, PoseLayout::positions);
   ASSERT_TRUE(take.ok()) << take.error().message;

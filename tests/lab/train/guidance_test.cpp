@@ -232,39 +232,32 @@ torch::Tensor bodies_of(const Take& take) {
   return bodies;
 }
 
-StatisticsGuide guide() {
+TEST(StatisticsGuide, knows_the_styles_of_other_takes_and_its_gradient_leads_to_them) {
   EXPECT_TRUE(prepare_matrix_products().ok());
-  const std::vector<Take> takes = test::styled_takes({"old", "proud", "neutral"}, {0, 1});
+  const std::vector<Take> takes = test::styled_takes(kClasses, {0, 1});
   std::vector<std::string> labels;
   for (const Take& take : takes) labels.push_back(take.row.style);
-  return StatisticsGuide(takes, labels, kClasses);
-}
-
-TEST(StatisticsGuide, knows_the_styles_of_takes_that_it_has_not_seen) {
-  const StatisticsGuide known = guide();
+  const StatisticsGuide guide(takes, labels, kClasses);
   for (size_t c = 0; c < kClasses.size(); ++c) {
     const torch::Tensor bodies = bodies_of(test::styled_take(kClasses[c], "walk", 3));
+    const auto loss = [&](size_t wanted) {
+      return guide.loss(bodies, torch::tensor({static_cast<int64_t>(wanted)}), 0).item<float>();
+    };
     for (size_t other = 0; other < kClasses.size(); ++other) {
       if (other == c) continue;
-      const auto loss = [&](size_t wanted) {
-        return known.loss(bodies, torch::tensor({static_cast<int64_t>(wanted)}), 0).item<float>();
-      };
       EXPECT_LT(loss(c) + 1, loss(other)) << kClasses[c] << " for " << kClasses[other];
     }
   }
-}
 
-TEST(StatisticsGuide, its_gradient_leads_to_the_style) {
-  const StatisticsGuide known = guide();
   torch::Tensor bodies = bodies_of(test::styled_take("neutral", "walk", 3)).set_requires_grad(true);
   const torch::Tensor wanted = torch::tensor({int64_t{0}});
-  const torch::Tensor before = known.loss(bodies, wanted, 0);
+  const torch::Tensor before = guide.loss(bodies, wanted, 0);
   before.backward();
   ASSERT_TRUE(bodies.grad().isfinite().all().item<bool>());
   const double slope = bodies.grad().square().sum().item<double>();
   EXPECT_GT(slope, 0);
   const torch::Tensor moved = (bodies - 0.1 / slope * bodies.grad()).detach();
-  EXPECT_LT(known.loss(moved, wanted, 0).item<double>(), before.item<double>() - 0.02);
+  EXPECT_LT(guide.loss(moved, wanted, 0).item<double>(), before.item<double>() - 0.02);
 }
 
 TEST(MotionStatistics, of_a_body_at_rest_have_a_slope) {
