@@ -8,26 +8,9 @@
 namespace panache {
 namespace {
 
-class StyleJudgesTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    EXPECT_TRUE(prepare_matrix_products().ok());
-    const std::vector<Take> takes = test::styled_takes({"neutral", "old", "proud"}, {0, 1, 2});
-    std::vector<int> styled, neutral;
-    for (size_t i = 0; i < takes.size(); ++i) {
-      (takes[i].row.neutral ? neutral : styled).push_back(static_cast<int>(i));
-    }
-    judges_ = std::make_unique<StyleJudges>(takes, pair_takes(takes, styled, neutral), 1);
-  }
-  static void TearDownTestSuite() { judges_.reset(); }
-
-  static std::unique_ptr<StyleJudges> judges_;
-};
-std::unique_ptr<StyleJudges> StyleJudgesTest::judges_;
-
-TEST_F(StyleJudgesTest, both_know_real_takes_that_they_have_not_seen) {
+void expect_real_takes_known(const StyleJudges& judges) {
   for (const Take& take : test::styled_takes({"old", "proud"}, {4}, 60)) {
-    const OodVerdict verdict = judges_->judge_real(take);
+    const OodVerdict verdict = judges.judge_real(take);
     EXPECT_GT(verdict.style_robust, 0.9) << take.row.path;
     EXPECT_GT(verdict.style_lda, 0.9) << take.row.path;
     ASSERT_EQ(verdict.robust_scores.size(), 2u);  // Neutral cannot be asked for.
@@ -38,41 +21,43 @@ TEST_F(StyleJudgesTest, both_know_real_takes_that_they_have_not_seen) {
   }
 }
 
-TEST_F(StyleJudgesTest, an_output_is_judged_as_the_style_that_was_asked_for) {
+void expect_outputs_judged_as_the_style_asked_for(const StyleJudges& judges) {
   const Take neutral = test::styled_take("neutral", "walk", 5);
   const Take old = test::styled_take("old", "walk", 5);
-  const OodVerdict right = judges_->judge(neutral, old, 0, "old");
+  const OodVerdict right = judges.judge(neutral, old, 0, "old");
   EXPECT_GT(right.style_lda, 0.9);
   EXPECT_EQ(right.signature.sign, right.signature.traits);
   EXPECT_EQ(right.signature.amount, right.signature.traits);
   EXPECT_GT(right.signature.traits, 0u);
-  const OodVerdict wrong = judges_->judge(neutral, old, 0, "proud");
+  const OodVerdict wrong = judges.judge(neutral, old, 0, "proud");
   EXPECT_LT(wrong.style_lda, 0.1);
   EXPECT_LT(wrong.style_robust, 0.1);
   EXPECT_LT(wrong.signature.sign_share(), 0.5);
   // The input itself has no style, and is no signature.
-  const OodVerdict nothing = judges_->judge(neutral, neutral, 0, "old");
+  const OodVerdict nothing = judges.judge(neutral, neutral, 0, "old");
   EXPECT_LT(nothing.style_robust, 0.1);
   EXPECT_EQ(nothing.signature.sign, 0u);
-  EXPECT_EQ(judges_->judge(neutral, old, 0, "jolly").style, -1);
+  EXPECT_EQ(judges.judge(neutral, old, 0, "jolly").style, -1);
 }
 
-// A kick that only neutral shows, and that looks like an old walk.
-TEST(StyleJudges, do_not_learn_that_whoever_kicks_is_neutral) {
+// To train judges takes long, so one pair answers all questions.
+TEST(StyleJudges, know_real_takes_and_outputs_and_do_not_learn_that_whoever_kicks_is_neutral) {
   EXPECT_TRUE(prepare_matrix_products().ok());
-  std::vector<Take> takes = test::styled_takes({"neutral", "old", "proud"}, {0, 1, 2}, 60);
+  std::vector<Take> takes = test::styled_takes({"neutral", "old", "proud"}, {0, 1, 2});
+  // A kick that only neutral shows, and that looks like an old walk.
   for (Take kick : test::styled_takes({"old"}, {0, 1, 2, 3, 5, 6, 7, 8, 9}, 60)) {
     kick.row.style = "neutral";
     kick.row.neutral = true;
     kick.row.content = "kick";
     takes.push_back(kick);
   }
-  const StyleJudges judges(takes, {}, 1);
-  for (const Take& take : test::styled_takes({"old"}, {4}, 60)) {
-    const OodVerdict verdict = judges.judge_real(take);
-    EXPECT_GT(verdict.style_robust, 0.9) << take.row.path;
-    EXPECT_GT(verdict.style_lda, 0.9) << take.row.path;
+  std::vector<int> styled, neutral;
+  for (size_t i = 0; i < takes.size(); ++i) {
+    (takes[i].row.neutral ? neutral : styled).push_back(static_cast<int>(i));
   }
+  const StyleJudges judges(takes, pair_takes(takes, styled, neutral), 1);
+  expect_real_takes_known(judges);
+  expect_outputs_judged_as_the_style_asked_for(judges);
 }
 
 // What old is in a walk is called proud where a hand waves: who has not seen the other action is
