@@ -239,7 +239,7 @@ std::pair<Vec3, Vec3> hips_of(const std::string& file) {
       clip.skeleton.joints.begin());
   std::pair<Vec3, Vec3> out;
   for (const bool last : {false, true}) {
-    (last ? out.second : out.first) = world_places(clip, last ? clip.frames - 1 : 0)[hips];
+    (last ? out.second : out.first) = world_positions(clip, last ? clip.frames - 1 : 0)[hips];
   }
   return out;
 }

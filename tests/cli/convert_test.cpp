@@ -128,7 +128,7 @@ TEST_F(Convert, what_is_no_humanoid_keeps_its_units) {
   expect_same_positions(open("box.bvh")->clip(), open("box.glb")->clip(), 0);
   must_quietly("convert box.bvh -o big.glb --scale 2 --up z");
   const auto big = open("big.glb");
-  EXPECT_NEAR(world_places(big->clip(), 0)[1].y, 10, 1e-5) << "twice as large and Y up";
+  EXPECT_NEAR(world_positions(big->clip(), 0)[1].y, 10, 1e-5) << "twice as large and Y up";
 }
 
 TEST_F(Convert, a_folder_needs_a_format) {

@@ -109,8 +109,8 @@ TEST_F(FbxMeshes, a_prop_is_where_pivots_and_its_own_geometry_place_it) {
   for (int f = 0; f <= 10; ++f) turn.keys.push_back({static_cast<double>(f), 7.0 * f});
   const std::vector<SceneStack> stacks = {
       {"Take", {{"BaseLayer", {}, {{0, 1, {{turn, {}, {}}}}}}}}};
-  std::vector<ScenePlace> transforms;
-  for (const SceneModel& model : models) transforms.push_back(saved_place(model));
+  std::vector<SceneTransform> transforms;
+  for (const SceneModel& model : models) transforms.push_back(saved_transform(model));
   const Affine world = worlds_by_formula(models, transforms)[2] * affine_move({0, 5, 0}) *
                        affine_turn({90, 0, 0}) * affine_grow({1, 3, 1});
   const std::string text = with_triangle(make_fbx_scene(models, stacks), 2);

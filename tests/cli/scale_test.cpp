@@ -92,11 +92,11 @@ class Scales : public ProgramTest {
       return parts.json["accessors"][sampler["input"].get<size_t>()]["count"].get<size_t>();
     };
     ASSERT_EQ(keys(a), keys(b)) << what;
-    const MatrixPlaces plain_nodes(a, animation), other_nodes(b, animation);
+    const MatrixPositions plain_nodes(a, animation), other_nodes(b, animation);
     double worst = 0;
     for (size_t f = 0; f < keys(a); f += 3) {
       for (size_t n = 0; n < a.json["nodes"].size(); ++n) {
-        worst = std::max(worst, length(plain_nodes.place(n, f) - other_nodes.place(n, f)));
+        worst = std::max(worst, length(plain_nodes.position(n, f) - other_nodes.position(n, f)));
       }
     }
     std::printf("%s: %.7f m\n", what, worst);

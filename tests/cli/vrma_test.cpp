@@ -225,7 +225,7 @@ TEST_F(Vrma, avatars_of_both_versions_get_what_the_player_shows) {
     for (size_t i = 0; i < std::size(kTimes); ++i) {
       const auto frame = static_cast<int>(std::lround(kTimes[i] / clip.frame_time));
       if (frame >= clip.frames) continue;
-      const std::vector<Vec3> positions = world_places(clip, frame);
+      const std::vector<Vec3> positions = world_positions(clip, frame);
       const auto position_of = [&](int human) {
         size_t j = 0;
         while (clip.skeleton.joints[j].role != human_joint_name(human)) ++j;

@@ -8,6 +8,9 @@ import sys
 FOLDERS = ('apps', 'include', 'lab', 'packaging', 'samples', 'src', 'tests')
 ENDS = {'.c', '.cpp', '.cs', '.h', '.js', '.mjs', '.ts'}
 RULED_OUT = {'most': 'max', 'least': 'min'}
+# As a name or at its end; a verb at its beginning, place_foot, may stay.
+VAGUE = {'way': 'direction, path or variant', 'ways': 'directions, paths or variants', 'place': 'position or index',
+         'places': 'positions or indices', 'how': 'method or mode', 'wide': 'width'}
 PROSE = re.compile(r'''//[^\n]*|/\*.*?\*/|R"\(.*?\)"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'|`(?:\\.|[^`\\])*`'''
                    r'|(?<=[(, ])/(?![/*\s=])(?:\\.|[^/\\\n])+/(?=[\w).,;])'  # A regular expression.
                    r'|\bTEST(?:_F|_P)?\([^)]*\)', re.DOTALL)
@@ -30,10 +33,13 @@ def main(root):
             if path.suffix not in ENDS or 'node_modules' in path.parts:
                 continue
             for number, name in names_in(path.read_text(errors='replace')):
-                for part in PART.findall(name):
-                    if part.lower() in RULED_OUT:
-                        found += 1
-                        print(f'{path.relative_to(root)}:{number}: {name}: expected {RULED_OUT[part.lower()]}')
+                parts = [part.lower() for part in PART.findall(name)]
+                wanted = [RULED_OUT[part] for part in parts if part in RULED_OUT]
+                if parts and parts[-2:] != ['in', 'place']:
+                    wanted += [VAGUE[part] for part in parts[-1:] if part in VAGUE]
+                for word in wanted:
+                    found += 1
+                    print(f'{path.relative_to(root)}:{number}: {name}: expected {word}')
     return 1 if found else 0
 
 

@@ -198,7 +198,7 @@ static class Test {
       Expect(Apart(actor.Play(f), reference.Play(f)) < 1e-3f, "the same pose in frame " + f);
   }
 
-  static void APoseIsMirroredTheRightWay(TextAsset file) {
+  static void APoseIsMirroredAsTheGameIs(TextAsset file) {
     var actor = new Actor(file).Start();
     actor.Animate(60);
     // Unity's left is at -x, and the body faces +z.
@@ -418,7 +418,7 @@ static class Test {
     Time.deltaTime = (float)walk.FrameSeconds;
     AStyledWalkIsTheLibrarysMirrored(file, model);
     AScaledArmatureIsStyledAlike(file, model);
-    APoseIsMirroredTheRightWay(file);
+    APoseIsMirroredAsTheGameIs(file);
     StrengthZeroChangesNoBit(file);
     APoseThatWasNotAnimatedIsNotStyledTwice(file);
     StrengthsAreAListThatMayChange(file, model);

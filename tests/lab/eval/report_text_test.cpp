@@ -25,7 +25,7 @@ using test::made_up_system;
 using test::numbers;
 
 // The lines of a text that are wider than a terminal of ours, as its reader counts.
-std::string too_wide(const std::string& text) {
+std::string lines_too_long(const std::string& text) {
   std::istringstream lines(text);
   std::string found;
   for (std::string line; std::getline(lines, line);) {
@@ -36,7 +36,7 @@ std::string too_wide(const std::string& text) {
 
 TEST(ReportText, no_line_is_wider_than_110_columns) {
   Report report = made_up_report();
-  EXPECT_EQ(too_wide(report_text(report)), "");
+  EXPECT_EQ(lines_too_long(report_text(report)), "");
   // Many systems with long names, many long contents, numbers as large as they may become.
   const std::string long_name = "a system with a name that does not end \xc3\xa9\xc3\xa9 " + kRude;
   for (int i = 0; i < 7; ++i) {
@@ -46,7 +46,7 @@ TEST(ReportText, no_line_is_wider_than_110_columns) {
     report.systems.back().disturbances[0].name = long_name + long_name + long_name;
     report.systems.back().unseen[0].name = long_name + long_name + long_name;
   }
-  EXPECT_EQ(too_wide(report_text(report)), "");
+  EXPECT_EQ(lines_too_long(report_text(report)), "");
 }
 
 TEST(ReportText, columns_are_aligned) {
@@ -79,7 +79,7 @@ TEST(ReportText, a_weak_classifier_is_set_beside_real_takes) {
             "those of the real takes, not with 1.");
   EXPECT_TRUE(notes[1].starts_with("The content classifier recognises 0.500 of the windows"));
   std::string text = report_text(report);
-  EXPECT_EQ(too_wide(text), "");
+  EXPECT_EQ(lines_too_long(text), "");
   EXPECT_NE(text.find("(real takes: 0.720)"), std::string::npos);
   std::replace(text.begin(), text.end(), '\n', ' ');
   for (const std::string& note : notes) {

@@ -15,6 +15,7 @@
 #include "learn/fit_style.h"
 #include "make_clip.h"
 #include "temporary_folder.h"
+#include "takes/load_takes.h"
 #include "train/gait_take.h"
 
 namespace panache {
