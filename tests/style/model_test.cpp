@@ -25,7 +25,8 @@ TEST(Model, styles_are_in_groups_where_the_model_names_them) {
   TensorFile file = test::make_model({"old", "proud", "mine"});
   const auto groups = [&] {
     std::vector<std::string> out;
-    for (const StyleInfo& style : read(file)->styles()) out.push_back(style.group);
+    const auto model = read(file);
+    for (const StyleInfo& style : model->styles()) out.push_back(style.group);
     return out;
   };
   using Groups = std::vector<std::string>;
