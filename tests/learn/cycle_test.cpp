@@ -70,8 +70,7 @@ TEST(Cycle, of_a_pair_may_start_anywhere) {
   for (const int quarter : {0, 1, 2, 3}) {
     const Clip styled = one_cycle(bent, kStart + quarter * frames / 4, frames);
     const LearnPair pair = test::make_pair(neutral, styled);
-    const LearntStyle learnt =
-        learn_style(test::shipped_model(), "m", {&pair, 1}, "bent", "").value();
+    const LearntStyle learnt = test::learn({pair});
     const PairReport& report = learnt.pairs[0];
     EXPECT_LT(report.match, 0.2) << quarter;
     EXPECT_NEAR(report.tempo, 1, 0.05) << quarter;  // Whole frames, smoothed over 7.

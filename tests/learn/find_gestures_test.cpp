@@ -24,8 +24,7 @@ void gesture_in(Clip& clip, double from, double to, HumanJoint joint, Vec3 turn)
 }
 
 LearntStyle learn(const Clip& styled) {
-  const LearnPair pair = test::make_pair(test::neutral_walk(8), styled);
-  return *learn_style(test::shipped_model(), "model", {&pair, 1}, "new", "");
+  return test::learn({test::make_pair(test::neutral_walk(8), styled)}, "new");
 }
 
 TEST(FindGestures, a_glance_is_found_where_it_is_and_kept_with_the_style) {
@@ -70,14 +69,11 @@ TEST(FindGestures, what_lasts_or_never_stops_is_none) {
 
 TEST(FindGestures, the_strongest_four_are_kept_apart) {
   Clip styled = test::bent_walk(14);
-  const LearnPair pair = [&] {
-    for (int k = 0; k < 6; ++k) {
-      gesture_in(styled, 0.8 + 2.1 * k, 1.9 + 2.1 * k, k % 2 ? head : right_upper_arm,
-                 k % 2 ? Vec3{0, 0.7f + 0.05f * k, 0} : Vec3{0, 0, 1.2f + 0.05f * k});
-    }
-    return test::make_pair(test::neutral_walk(8), styled);
-  }();
-  const LearntStyle learnt = *learn_style(test::shipped_model(), "model", {&pair, 1}, "new", "");
+  for (int k = 0; k < 6; ++k) {
+    gesture_in(styled, 0.8 + 2.1 * k, 1.9 + 2.1 * k, k % 2 ? head : right_upper_arm,
+               k % 2 ? Vec3{0, 0.7f + 0.05f * k, 0} : Vec3{0, 0, 1.2f + 0.05f * k});
+  }
+  const LearntStyle learnt = learn(styled);
   EXPECT_EQ(learnt.gestures.size(), 4u);
   // All six count: 6 / 14 s.
   EXPECT_NEAR(std::stod(learnt.file.metadata.at("gesture_rate")), 0.429, 0.05);

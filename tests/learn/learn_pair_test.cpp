@@ -7,6 +7,7 @@
 #include "learn/style_file.h"
 #include "make_walks.h"
 #include "style/restyle.h"
+#include "style/style_checks.h"
 
 namespace panache {
 namespace {
@@ -18,8 +19,7 @@ std::string failure(const Clip& neutral, const Clip& styled) {
 }
 
 LearntStyle learn(const Clip& neutral, const Clip& styled) {
-  const LearnPair pair = test::make_pair(neutral, styled);
-  return learn_style(test::shipped_model(), "model.safetensors", {&pair, 1}, "bent", "").value();
+  return test::learn({test::make_pair(neutral, styled)});
 }
 
 // The motion of `clip` with the axes of each joint turned by turns[joint], so that the skeleton
@@ -167,14 +167,10 @@ Clip pose_of(const Clip& clip, int frame) {
 }
 
 std::shared_ptr<const Model> with_pose(const LearnPair& pair) {
-  const LearntStyle learnt =
-      learn_style(test::shipped_model(), "model.safetensors", {&pair, 1}, "bent", "").value();
+  const LearntStyle learnt = test::learn({pair});
   EXPECT_FALSE(learnt.judged);
   EXPECT_TRUE(learnt.pairs[0].warnings.empty() && learnt.warnings.empty());
-  const TensorFile model =
-      add_style(test::shipped_model(), "model.safetensors", learnt.file, "style.safetensors", false)
-          .value();
-  return Model::parse(format_safetensors(model), "model.safetensors").value();
+  return read(*add_style(test::shipped_model(), "m", learnt.file, "style.safetensors", false));
 }
 
 // By how much a walk in the style leans more, on average.
@@ -183,13 +179,10 @@ double lean_of(const std::shared_ptr<const Model>& model, const Clip& walk) {
   const Restyled styled = restyle(walk, *Rig::create(walk), model, {track}).value();
   EXPECT_EQ(styled.clip.frames, walk.frames) << "a pose has no tempo";
   EXPECT_GT(*std::min_element(styled.gates.begin(), styled.gates.end()), 0.99f);
-  const auto lean = [](const Clip& clip, int frame) {
-    const Quat q = clip.pose(frame).rotations[index(HumanJoint::spine)];
-    return std::atan2(rotate(q, Vec3{0, 1, 0}).z, rotate(q, Vec3{0, 1, 0}).y);
-  };
   double sum = 0;
-  for (int f = 30; f < 120; ++f)
-    sum += static_cast<double>(lean(styled.clip, f) - lean(walk, f)) / 90;
+  for (int f = 30; f < 120; ++f) {
+    sum += static_cast<double>(test::lean(styled.clip, f) - test::lean(walk, f)) / 90;
+  }
   return sum;
 }
 

@@ -8,29 +8,18 @@
 #include <gtest/gtest.h>
 
 #include "make_model.h"
-#include "rig/canonical_body.h"
 #include "style/restyle.h"
-#include "walker/walker.h"
+#include "style/style_checks.h"
 
 namespace panache {
 namespace {
 
 const std::string kModels = PANACHE_SOURCE_DIR "/models/";
 
-Clip neutral_walk() {
-  Walker walk(*WalkerModel::load(kModels + "walker.safetensors"));
-  Clip clip;
-  clip.skeleton = canonical_skeleton();
-  clip.frame_time = 1 / 60.0;
-  clip.resize(480);
-  for (int f = 0; f < clip.frames; ++f) walk.step(1.3f, 0, clip.frame_time, clip.pose(f));
-  return clip;
-}
-
 // The numbers learnt from the walk of a person with this carriage.
 PersonNumbers learnt(const std::shared_ptr<const Model>& model, size_t axis, float number) {
   const auto bank = *NeutralBank::load(kModels + "neutral.safetensors");
-  const Clip walk = neutral_walk();
+  const Clip walk = walker_walk(480, 1.3f, 0);
   const Rig rig = *Rig::create(walk);
   RestyleOptions options;
   options.timing = false;
@@ -43,7 +32,7 @@ PersonNumbers learnt(const std::shared_ptr<const Model>& model, size_t axis, flo
 }
 
 TEST(LearnPerson, finds_the_number_that_a_walk_was_made_with) {
-  const auto model = *Model::load(kModels + "panache.safetensors");
+  const auto model = shipped_model();
   const std::vector<std::string>& names = model->persons()->names();
   const auto axis =
       static_cast<size_t>(std::find(names.begin(), names.end(), "carriage") - names.begin());
@@ -56,14 +45,13 @@ TEST(LearnPerson, finds_the_number_that_a_walk_was_made_with) {
 
 TEST(LearnPerson, needs_a_model_with_persons_and_motion_that_others_do) {
   const auto bank = *NeutralBank::load(kModels + "neutral.safetensors");
-  const auto without =
-      *Model::parse(format_safetensors(test::make_model({"old"})), "a small model");
-  const Clip walk = neutral_walk();
+  const auto without = read(test::make_model({"old"}));
+  const Clip walk = walker_walk(480, 1.3f, 0);
   const Take take = make_take(walk, *Rig::create(walk), PoseLayout::positions);
   const auto nobody = learn_person(without, *bank, {&take, 1});
   ASSERT_FALSE(nobody.ok());
   EXPECT_NE(nobody.error().message.find("has no persons"), std::string::npos);
-  const auto nothing = learn_person(*Model::load(kModels + "panache.safetensors"), *bank, {});
+  const auto nothing = learn_person(shipped_model(), *bank, {});
   ASSERT_FALSE(nothing.ok());
   EXPECT_NE(nothing.error().message.find("a plain walk"), std::string::npos);
 }

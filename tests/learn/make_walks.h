@@ -1,8 +1,10 @@
 #pragma once
 // Walks to learn styles from: the shipped walker's, and what a style does to them that is known.
 
+#include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -46,6 +48,18 @@ inline Clip bent_walk(double seconds = 4, float bend = 0.5f, double slower = 1) 
 inline LearnPair make_pair(const Clip& neutral, const Clip& styled) {
   const Result<Rig> a = Rig::create(neutral), b = Rig::create(styled);
   return make_learn_pair({neutral, *a, "neutral.bvh"}, {styled, *b, "styled.bvh"}).value();
+}
+
+// A style of the shipped model learnt from these pairs, which it has to be.
+inline LearntStyle learn(const std::vector<LearnPair>& pairs, const std::string& name = "bent",
+                         const std::string& description = "") {
+  return learn_style(shipped_model(), "model.safetensors", pairs, name, description).value();
+}
+
+// How far the spine leans forward at a frame, radians.
+inline float lean(const Clip& clip, int frame) {
+  const Vec3 up = rotate(clip.pose(frame).rotations[index(HumanJoint::spine)], Vec3{0, 1, 0});
+  return std::atan2(up.z, up.y);
 }
 
 }  // namespace panache::test

@@ -78,9 +78,7 @@ TEST(NeutralBank, the_same_clip_gives_the_same_twin) {
 }
 
 TEST(NeutralBank, a_style_is_learnt_from_a_walk_alone) {
-  const std::vector<LearnPair> pairs = {alone(test::bent_walk())};
-  const LearntStyle learnt =
-      learn_style(test::shipped_model(), "model.safetensors", pairs, "bent", "").value();
+  const LearntStyle learnt = test::learn({alone(test::bent_walk())});
   ASSERT_TRUE(learnt.pairs[0].twin);
   EXPECT_GE(learnt.pairs[0].twin->people, NeutralBank::kMinPeople);
   EXPECT_EQ(learnt.pairs[0].neutral_name, "neutral people");
@@ -100,8 +98,7 @@ TEST(NeutralBank, motion_that_nobody_does_is_told) {
   LearnPair pair = alone(walk);
   EXPECT_FALSE(pair.twin->is_known);
   pair.twin->trust = 1;  // Were what people do as lively as he.
-  const LearntStyle learnt =
-      learn_style(test::shipped_model(), "model.safetensors", {&pair, 1}, "flying", "").value();
+  const LearntStyle learnt = test::learn({pair}, "flying");
   ASSERT_FALSE(learnt.pairs[0].warnings.empty());
   EXPECT_EQ(learnt.pairs[0].warnings[0],
             "bent.bvh: is unlike the neutral motion that is known, so that what differs from it is "
@@ -137,8 +134,7 @@ TEST(NeutralBank, beside_people_who_stand_punches_are_no_style) {
   const LearnPair pair = alone(punch(false));
   EXPECT_EQ(pair.twin->trust, 0);
   EXPECT_EQ(pair.twin->certainty, 0);
-  const LearntStyle learnt =
-      learn_style(test::shipped_model(), "model.safetensors", {&pair, 1}, "punch", "").value();
+  const LearntStyle learnt = test::learn({pair}, "punch");
   ASSERT_FALSE(learnt.pairs[0].warnings.empty());
   EXPECT_EQ(
       learnt.pairs[0].warnings[0],
@@ -151,7 +147,7 @@ TEST(NeutralBank, beside_people_who_stand_punches_are_no_style) {
 
 LearntStyle learn_trusting(LearnPair pair, double trust) {
   pair.twin->trust = trust;
-  return learn_style(test::shipped_model(), "model.safetensors", {&pair, 1}, "s", "").value();
+  return test::learn({pair});
 }
 
 TEST(NeutralBank, as_much_is_learnt_as_is_trusted) {
@@ -173,31 +169,31 @@ TEST(NeutralBank, what_an_action_does_that_is_not_trusted_is_no_gesture) {
 }
 
 TEST(NeutralBank, a_damaged_file_is_rejected_with_its_tensor) {
-  const std::string bytes = read_file(kShipped).value();
-  const auto failure = [](const TensorFile& file) {
+  const TensorFile good = parse_safetensors(read_file(kShipped).value(), "bank").value();
+  const auto message = [&](auto&& damage) {
+    TensorFile file = good;
+    damage(file);
     const auto bank = NeutralBank::parse(format_safetensors(file), "bank");
     return bank ? std::string() : bank.error().message;
   };
-  const TensorFile good = parse_safetensors(bytes, "bank").value();
-  EXPECT_EQ(failure(good), "");
-  TensorFile file = good;
-  file.metadata["format"] = "panache";
-  EXPECT_EQ(failure(file),
+  EXPECT_EQ(message([](TensorFile&) {}), "");
+  EXPECT_EQ(message([](TensorFile& file) { file.metadata["format"] = "panache"; }),
             "bank: is no bank of neutral motion; expected metadata 'format' to be "
             "'panache-neutral'");
-  file = good;
-  file.tensors.erase("people");
-  EXPECT_EQ(failure(file), "bank: tensor 'people' is missing");
-  file = good;
-  file.tensors["mean"].shape = {488, 1};
-  EXPECT_EQ(failure(file), "bank: tensor 'mean' has shape [488, 1]; expected [any, 488]");
-  file = good;
-  file.tensors["known"].values[0] = std::nanf("");
-  EXPECT_EQ(failure(file), "bank: tensor 'known' holds a number that is not finite (number 0)");
-  file = good;
-  file.tensors["people"].shape[0] -= 1;
-  file.tensors["people"].values.resize(file.tensors["people"].values.size() - 8);
-  EXPECT_EQ(failure(file), "bank: its tensors do not belong together; get the file again");
+  EXPECT_EQ(message([](TensorFile& file) { file.tensors.erase("people"); }),
+            "bank: tensor 'people' is missing");
+  EXPECT_EQ(message([](TensorFile& file) {
+              file.tensors["mean"].shape = {488, 1};
+            }),
+            "bank: tensor 'mean' has shape [488, 1]; expected [any, 488]");
+  EXPECT_EQ(message([](TensorFile& file) { file.tensors["known"].values[0] = std::nanf(""); }),
+            "bank: tensor 'known' holds a number that is not finite (number 0)");
+  EXPECT_EQ(message([](TensorFile& file) {
+              Tensor& people = file.tensors["people"];
+              people.shape[0] -= 1;
+              people.values.resize(people.values.size() - 8);
+            }),
+            "bank: its tensors do not belong together; get the file again");
 }
 
 }  // namespace

@@ -16,13 +16,21 @@
 namespace panache {
 namespace {
 
+// A neutral take and a styled one that is a little faster.
+std::vector<Take> two_takes(PoseLayout layout = PoseLayout::positions) {
+  return {test::make_take("neutral", 200, 0, 1, 0, layout),
+          test::make_take("old", 90, 1.7f, 1.3f, 0.4f, layout)};
+}
+SampleSet samples_of(const std::vector<Take>& takes, const Recipe& recipe, bool neutral = false) {
+  return SampleSet(takes, pair_takes(takes, {1}, {0}), {"old"}, recipe, neutral);
+}
+
 class SamplesTest : public testing::TestWithParam<const Recipe*> {
  protected:
   SamplesTest()
       : layout_(GetParam()->layout),
-        takes_{test::make_take("neutral", 200, 0, 1, 0, layout_),
-               test::make_take("old", 90, 1.7f, 1.3f, 0.4f, layout_)},
-        set_(takes_, pair_takes(takes_, {1}, {0}), {"old"}, *GetParam(), false) {}
+        takes_(two_takes(layout_)),
+        set_(samples_of(takes_, *GetParam())) {}
 
   PoseLayout layout_;
   std::vector<Take> takes_;
@@ -69,7 +77,7 @@ TEST_P(SamplesTest, every_sample_has_its_style_rate_and_contacts) {
 }
 
 TEST_P(SamplesTest, neutral_frames_are_samples_without_a_style_where_asked_for) {
-  const SampleSet both(takes_, pair_takes(takes_, {1}, {0}), {"old"}, *GetParam(), true);
+  const SampleSet both = samples_of(takes_, *GetParam(), true);
   const size_t styled = set_.samples().size();
   ASSERT_EQ(both.samples().size(), styled + 200);
   std::vector<float> window(both.inputs()), expected(both.inputs());
@@ -105,12 +113,9 @@ TEST(Samples, a_change_put_on_the_neutral_rotations_gives_the_styled_ones) {
 }
 
 TEST(Samples, an_absolute_pose_is_the_change_that_made_it) {
-  const std::vector<Take> takes = {
-      test::make_take("neutral", 200, 0, 1, 0, PoseLayout::rotations),
-      test::make_take("old", 90, 1.7f, 1.3f, 0.4f, PoseLayout::rotations)};
-  const std::vector<Pairing> pairings = pair_takes(takes, {1}, {0});
-  const SampleSet absolute(takes, pairings, {"old"}, test::kSmith2019, false);
-  const SampleSet changes(takes, pairings, {"old"}, test::kPanache, false);
+  const std::vector<Take> takes = two_takes(PoseLayout::rotations);
+  const SampleSet absolute = samples_of(takes, test::kSmith2019);
+  const SampleSet changes = samples_of(takes, test::kPanache);
   std::vector<float> window(absolute.inputs());
   for (const size_t i : {size_t{0}, size_t{20}, absolute.samples().size() - 1}) {
     absolute.window(i, window);
@@ -127,9 +132,8 @@ TEST(Samples, an_absolute_pose_is_the_change_that_made_it) {
 }
 
 TEST(Samples, an_undisturbing_disturbance_leaves_the_window_alone) {
-  const std::vector<Take> takes = {test::make_take("neutral", 200, 0, 1, 0),
-                                   test::make_take("old", 90, 1.7f, 1.3f, 0.4f)};
-  const SampleSet set(takes, pair_takes(takes, {1}, {0}), {"old"}, test::kPanache, false);
+  const std::vector<Take> takes = two_takes();
+  const SampleSet set = samples_of(takes, test::kPanache);
   const Disturbance none;
   Random random(3);
   std::vector<float> window(set.inputs());
@@ -156,9 +160,8 @@ TEST(Samples, a_larger_body_goes_faster_by_as_much) {
 }
 
 TEST(Samples, another_person_has_the_same_limbs_held_otherwise) {
-  const std::vector<Take> takes = {test::make_take("neutral", 200, 0, 1, 0),
-                                   test::make_take("old", 90, 1.7f, 1.3f, 0.4f)};
-  const SampleSet set(takes, pair_takes(takes, {1}, {0}), {"old"}, test::kPanache, false);
+  const std::vector<Take> takes = two_takes();
+  const SampleSet set = samples_of(takes, test::kPanache);
   Disturbance other;
   other.torso = other.head = other.legs = 0.1f;
   other.arms = 0.2f;

