@@ -29,7 +29,7 @@ if (clip) looks.push(['web-clip', 'limping=1&view=side', {}, clip]);
 
 const site = await start();
 for (const [name, hash, options, file] of looks) {
-  const tab = await site.open(hash, { ...options, steady: true, card: true });
+  const tab = await site.open(hash, { ...options, steady: true, card: true, every: 1 });
   if (file) {
     await tab.setInputFiles('#file', file);
     await tab.waitForFunction(() => window.page.source.kind === 'clip');

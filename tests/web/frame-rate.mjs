@@ -8,7 +8,7 @@ const kSettle = 6000, kSeconds = 5;
 
 const site = await start();
 const opening = performance.now();
-const tab = await site.open('', { viewport: { width: 1440, height: 900 } });
+const tab = await site.open('', { viewport: { width: 1440, height: 900 }, every: 1 });
 console.log(`moves ${Math.round(performance.now() - opening)} ms after opening`);
 const steps = await tab.evaluate(() => {
   const { source: { player }, panache } = window.page;

@@ -7,8 +7,8 @@ import { spawn } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { join } from 'node:path';
-import playwright from 'playwright-core';
 import { start } from './page/browser.mjs';
+import { launchChromium } from './serve.mjs';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const runs = Number(process.argv[2] ?? 5);
@@ -21,10 +21,7 @@ const cpu = () => {
   return (Number(fields[11]) + Number(fields[12])) / 100;
 };
 const site = await start();  // The static server.
-const browser = await playwright.chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
+const browser = await launchChromium();
 
 async function time(tab, go) {
   const begin = performance.now();

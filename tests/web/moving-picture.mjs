@@ -3,11 +3,9 @@
 // cycles of its own walk, so the frames are a loop; tempos change by less than a twentieth for that,
 // by a tenth for twelve characters. Prints the number of frames. Called by scripts/moving-picture.
 
-import { readFile } from 'node:fs/promises';
-import { createServer } from 'node:http';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { chromium } from 'playwright-core';
+import { launchChromium, serve } from './serve.mjs';
 
 const [folder, ...walkers] = process.argv.slice(2);
 const labels = walkers.map((walker) => walker.split('=')[0]);
@@ -155,30 +153,14 @@ window.show = (frame) => {
 window.ready = { count, duration, worst, cycles: walks.map(({ cycle, least }) => [cycle, least]) };
 </script>`;
 
-const server = createServer(async (request, response) => {
-  const path = new URL(request.url, 'http://localhost').pathname;
-  try {
-    const body = path === '/' ? page
-      : await readFile(path.startsWith('/three/') ? join(three, path.slice('/three/'.length))
-        : files[parseInt(path.slice(1), 10)]);
-    response.setHeader('Content-Type', path === '/' ? 'text/html'
-      : path.endsWith('.js') ? 'text/javascript' : 'application/octet-stream');
-    response.end(body);
-  } catch {
-    response.statusCode = 404;
-    response.end();
-  }
-});
-await new Promise((listening) => server.listen(0, '127.0.0.1', listening));
-
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
+const { server, address } = await serve((path) => (path === '/' ? Buffer.from(page)
+  : path.startsWith('/three/') ? join(three, path.slice('/three/'.length))
+  : files[parseInt(path.slice(1), 10)]));
+const browser = await launchChromium();
 try {
   const tab = await browser.newPage({ viewport: size });
   tab.on('pageerror', (error) => console.error(`moving-picture: ${error.message}`));
-  await tab.goto(`http://127.0.0.1:${server.address().port}/`);
+  await tab.goto(address);
   await tab.waitForFunction(() => window.ready, null, { timeout: 120000 });
   const { count, ...facts } = await tab.evaluate(() => window.ready);
   console.error(`moving-picture: ${JSON.stringify(facts)}`);

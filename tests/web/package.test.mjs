@@ -189,66 +189,72 @@ test('styles have the groups of the model', async () => {
   panache.setModel(own);
 });
 
-test('styles have sides, which characters, clips and players take', async () => {
-  const own = panache.modelBytes;
-  panache.setModel(await withList('style_sides',
-    panache.styles.map(({ name }) => (name === 'old' ? 'right leg' : ''))));
-  const { joints, made } = skeleton();
-  const frames = 60;
-  const clip = {
+/** A second of the figure at rest, as the arrays of a clip. */
+function restClip(joints, frames = 60) {
+  return {
     rotations: Float32Array.from({ length: 4 * joints.length * frames },
       (_, i) => joints[(i >> 2) % joints.length].rotation[i % 4]),
     translations: Float32Array.from({ length: 3 * joints.length * frames },
       (_, i) => joints[Math.floor(i / 3) % joints.length].translation[i % 3]),
     frameSeconds: 1 / 60,
   };
-  assert.equal(panache.styles.find(({ name }) => name === 'old').side, 'right leg');
-  const styled = (side) => panache.stylizeClip(made, clip, { old: 1 },
-    { sides: side === undefined ? {} : { old: side } }).rotations.join();
-  const captured = styled(), mirrored = styled('mirrored');
-  assert.notEqual(captured, mirrored);
-  for (const side of ['captured', 'right', 1]) assert.equal(styled(side), captured, side);
-  for (const side of ['left', -1]) assert.equal(styled(side), mirrored, side);
-  assert.notEqual(styled(0), captured);
+}
 
-  const steps = (side) => {
-    const character = panache.createCharacter(made);
-    character.setStrength('old', 1);
-    if (side !== undefined) character.setSide('Old', side);
-    const pose = { rotations: clip.rotations.slice(0, 4 * joints.length),
-      translations: clip.translations.slice(0, 3 * joints.length) };
-    const out = { rotations: pose.rotations.slice(), translations: pose.translations.slice() };
-    for (let f = 0; f < 30; ++f) character.step(pose, out, 1 / 60);
-    character.free();
-    return out.rotations.join();
+/** What a character of these options shows of the figure at rest after a change of it. */
+function stand({ joints, made }, change, options = {}, frames = 120) {
+  const character = panache.createCharacter(made, options);
+  change(character);
+  const shown = [];
+  for (let f = 0; f < frames; ++f) {
+    const pose = restClip(joints, 1);
+    character.step(pose, pose, 1 / 60);
+    shown.push(...pose.rotations);
+  }
+  character.free();
+  return shown.join();
+}
+
+// What sides do is tested over the C interface: that they get there, here.
+test('styles have sides, which characters, clips and players take', async () => {
+  const own = panache.modelBytes;
+  panache.setModel(await withList('style_sides',
+    panache.styles.map(({ name }) => (name === 'old' ? 'right leg' : ''))));
+  const { joints, made } = skeleton();
+  assert.equal(panache.styles.find(({ name }) => name === 'old').side, 'right leg');
+  const withWalker = await createWithWalker(await read('models/walker.safetensors'));
+  withWalker.setModel(panache.modelBytes);
+  const takers = {
+    clip: (side) => panache.stylizeClip(made, restClip(joints), { old: 1 },
+      { sides: side === undefined ? {} : { old: side } }).rotations.join(),
+    character: (side) => stand({ joints, made }, (character) => {
+      character.setStrength('old', 1);
+      if (side !== undefined) character.setSide('Old', side);
+    }, {}, 30),
+    player: (side) => {
+      const walk = withWalker.createWalker();
+      walk.setStrength('old', 1);
+      if (side !== undefined) walk.setSide('old', side);
+      for (let f = 0; f < 60; ++f) walk.step(1 / 60);
+      const parts = walk.parts('styled').join();
+      walk.free();
+      return parts;
+    },
   };
-  assert.equal(steps('right'), steps());
-  assert.notEqual(steps('left'), steps());
+  for (const [name, moved] of Object.entries(takers)) {
+    const captured = moved(), mirrored = moved('mirrored');
+    assert.notEqual(mirrored, captured, name);
+    for (const side of ['captured', 'right', 1]) {
+      assert.equal(moved(side), captured, `${name} ${side}`);
+    }
+    for (const side of ['left', -1]) assert.equal(moved(side), mirrored, `${name} ${side}`);
+  }
   const character = panache.createCharacter(made);
   refusal(() => character.setSide('old', 'up'),
     /^side of 'old': expected 'captured', 'mirrored', 'left', 'right' or a number from -1 to 1, found 'up'$/);
   refusal(() => character.setSide('proud', 'left'),
     /^side of 'proud': expected 'captured', 'mirrored' or a number from -1 to 1, found 'left'$/);
   refusal(() => character.setSide('old', 2), /found 2$/);
-  character.free();
-  made.free();
-
-  const withWalker = await createWithWalker(await read('models/walker.safetensors'));
-  withWalker.setModel(panache.modelBytes);
-  const walked = (side) => {
-    const walk = withWalker.createWalker();
-    walk.setStrength('old', 1);
-    if (side !== undefined) walk.setSide('old', side);
-    for (let f = 0; f < 30; ++f) walk.step(1 / 60);
-    walk.setTiming('off');
-    for (let f = 0; f < 30; ++f) walk.step(1 / 60);
-    const parts = walk.parts('styled').join();
-    walk.free();
-    return parts;
-  };
-  assert.equal(walked('captured'), walked());
-  assert.notEqual(walked('mirrored'), walked());
-  withWalker.free();
+  for (const thing of [character, made, withWalker]) thing.free();
   panache.setModel(own);
 });
 
@@ -590,14 +596,7 @@ test('a whole clip gets the tempo of its style', () => {
   const { joints, made } = skeleton();
   assert.equal(made.find('leftHand'), 7);
   assert.equal(made.find('leftShoulder'), -1);
-  const frames = 120;
-  const clip = {
-    rotations: Float32Array.from({ length: 4 * joints.length * frames },
-      (_, i) => (i % 4 === 3 ? 1 : 0)),
-    translations: Float32Array.from({ length: 3 * joints.length * frames },
-      (_, i) => joints[Math.floor(i / 3) % joints.length].translation[i % 3]),
-    frameSeconds: 1 / 60,
-  };
+  const frames = 120, clip = restClip(joints, frames);
   const plain = panache.stylizeClip(made, clip, {});
   assert.equal(plain.frameCount, frames);
   assert.deepEqual(plain.rotations, clip.rotations);
@@ -619,10 +618,7 @@ test('a whole clip gets the tempo of its style', () => {
 test('a character tells what went on, and what is wrong is said in a sentence', () => {
   const { joints, made } = skeleton();
   const character = panache.createCharacter(made, { maxLag: 0.5 });
-  const pose = {
-    rotations: Float32Array.from(joints.flatMap(({ rotation }) => rotation)),
-    translations: Float32Array.from(joints.flatMap(({ translation }) => translation)),
-  };
+  const pose = restClip(joints, 1);
   character.setStrength('old', 1);
   for (let f = 0; f < 60; ++f) character.step(pose, pose, 1 / 60);
   const { gate, rate, ahead, contacts } = character.report();
@@ -653,27 +649,14 @@ test('gestures are listed, triggered and played as often as in the takes', async
   assert.ok(gesturesOf('scared').length > 0 && gesturesOf('scared').every((name) => / s$/.test(name)));
   assert.deepEqual(gesturesOf('robot'), []);
   const { joints, made } = skeleton();
-  const stand = (options, gesture) => {
-    const character = panache.createCharacter(made, options);
+  const scared = (options, gesture) => stand({ joints, made }, (character) => {
     character.setStrength('scared', 1);
     if (gesture !== undefined) character.trigger('scared', gesture);
-    const shown = [];
-    for (let f = 0; f < 120; ++f) {
-      const pose = {
-        rotations: Float32Array.from(joints.flatMap(({ rotation }) => rotation)),
-        translations: Float32Array.from(joints.flatMap(({ translation }) => translation)),
-      };
-      character.step(pose, pose, 1 / 60);
-      shown.push(...pose.rotations);
-    }
-    character.free();
-    return shown.join();
-  };
+  }, options);
   const silent = { gestureRate: 0 };
-  assert.equal(stand(silent), stand(silent));
-  assert.notEqual(stand(silent), stand(silent, 1));
-  assert.equal(stand(), stand({ gestureRate: 1 }));
-  assert.notEqual(stand(), stand(silent));
+  assert.notEqual(scared(silent), scared(silent, 1));
+  assert.equal(scared(), scared({ gestureRate: 1 }));
+  assert.notEqual(scared(), scared(silent));
   const character = panache.createCharacter(made);
   refusal(() => character.trigger('robot'), /^style 'robot' has no gesture 0; it has 0$/);
   refusal(() => panache.createCharacter(made, { gestureRate: -1 }), /^gesture rate of -1/);

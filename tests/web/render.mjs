@@ -1,11 +1,9 @@
 // node render.mjs FILE OUT.png [SECONDS [CLIP]]: loads a glTF file with three.js in Chromium, plays
 // a clip (by name; else the first) to a time, and takes a picture. Ends with 1, and says why, where
 // the page has anything to complain of.
-import { readFile } from 'node:fs/promises';
-import { createServer } from 'node:http';
-import { dirname, extname, join, normalize } from 'node:path';
+import { dirname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { chromium } from 'playwright-core';
+import { launchChromium, serve } from './serve.mjs';
 
 const [file, picture, seconds = '0', clip = ''] = process.argv.slice(2);
 if (!file || !picture) {
@@ -78,28 +76,10 @@ window.done = {
 };
 </script>`;
 
-const server = createServer(async (request, response) => {
-  const path = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
-  const source = path === '/model' ? file
-    : path.startsWith('/three/') ? join(three, path.slice('/three/'.length)) : null;
-  try {
-    const body = path === '/' ? page : await readFile(source);
-    const type = source === null ? 'text/html' : extname(source) === '.js' ? 'text/javascript'
-      : 'application/octet-stream';
-    response.setHeader('Content-Type', type);
-    response.end(body);
-  } catch {
-    response.statusCode = 404;
-    response.end();
-  }
-});
-await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
-
+const { server, address } = await serve((path) => (path === '/' ? Buffer.from(page)
+  : path === '/model' ? file : join(three, normalize(path).slice('/three/'.length))));
 const complaints = [];
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
+const browser = await launchChromium();
 try {
   const tab = await browser.newPage({ viewport: { width: 640, height: 480 } });
   tab.on('console', (message) => {
@@ -108,7 +88,7 @@ try {
     if (ours && ['error', 'warning'].includes(message.type())) complaints.push(message.text());
   });
   tab.on('pageerror', (error) => complaints.push(error.message));
-  await tab.goto(`http://127.0.0.1:${server.address().port}/`);
+  await tab.goto(address);
   await tab.waitForFunction(() => window.done, null, { timeout: 60000 })
     .catch((error) => complaints.push(error.message));
   console.log(JSON.stringify(await tab.evaluate(() => window.done ?? null)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -194,45 +195,12 @@ TEST_F(Eval, outputs_with_a_manifest_that_is_wrong_are_rejected_at_once) {
                   "theirs/manifest.csv: exists already; --force overwrites it");
 }
 
-TEST_F(Eval, takes_that_differ_in_name_only_are_evaluated_beside_what_real_takes_get) {
-  // Who is called old in training is called proud in the test.
-  std::string rows;
-  for (const std::string content : kContents) {
-    rows += "neutral-" + content + "-0.bvh,neutral," + content + ",0,1,train\n";
-    rows += "neutral-" + content + "-2.bvh,neutral," + content + ",2,1,test\n";
-    rows += "old-" + content + "-0.bvh,old," + content + ",0,0,train\n";
-    rows += "proud-" + content + "-0.bvh,proud," + content + ",0,0,train\n";
-    rows += "proud-" + content + "-2.bvh,old," + content + ",2,0,test\n";
-    rows += "old-" + content + "-2.bvh,proud," + content + ",2,0,test\n";
-  }
-  write("crossed.csv", table(rows));
-  const Ran ran = must("eval crossed.csv --model model.safetensors --report report");
-  EXPECT_TRUE(holds(ran.out,
-                    "The style classifier recognises 0.000 of the windows of real held-out "
-                    "takes, less than 0.950"));
-  EXPECT_TRUE(exists("report"));
-}
-
 TEST_F(Eval, without_test_takes_there_is_nothing_to_judge_by) {
   write("all.csv", table("neutral-walk-0.bvh,neutral,walk,0,1,train\n"
                          "old-walk-0.bvh,old,walk,0,0,train\n"));
   expect_rejected("eval all.csv --model model.safetensors", 1,
                   "all.csv: marks no take as test; mark some in its column split, or give a "
                   "manifest of test takes with --test");
-}
-
-TEST_F(Eval, test_takes_of_one_kind_only_are_rejected) {
-  const std::string train =
-      "neutral-walk-0.bvh,neutral,walk,0,1,train\n"
-      "old-walk-0.bvh,old,walk,0,0,train\n";
-  write("styled.csv", table(train + "old-walk-2.bvh,old,walk,2,0,test\n"));
-  expect_rejected(
-      "eval styled.csv --model model.safetensors", 1,
-      "no neutral test take of a content that is trained on; expected rows with neutral 1");
-  write("neutral.csv", table(train + "neutral-walk-2.bvh,neutral,walk,2,1,test\n"));
-  expect_rejected("eval neutral.csv --model model.safetensors", 1,
-                  "no styled test take of a style and content that are trained on; expected rows "
-                  "with neutral 0");
 }
 
 TEST_F(Eval, takes_that_were_trained_on_or_are_of_other_styles_do_not_judge) {
@@ -248,17 +216,7 @@ TEST_F(Eval, takes_that_were_trained_on_or_are_of_other_styles_do_not_judge) {
 }
 
 TEST_F(Eval, an_unknown_split_is_rejected) {
-  const Words arguments = "eval takes.csv --model model.safetensors --unseen-split";
-  const auto with = [&](const std::string& split) {
-    std::vector<std::string> all = arguments;
-    all.push_back(split);
-    return all;
-  };
-  expect_rejected(
-      with("D"), 1,
-      "unseen content 'D' has no styled test take; expected contents of the styled test "
-      "takes: walk, wave");
-  expect_rejected(with("walk,,wave"), 1,
+  expect_rejected("eval takes.csv --model model.safetensors --unseen-split walk,,wave", 1,
                   "--unseen-split: split 'walk,,wave'; expected A, B or C, or different contents "
                   "with commas between them");
 }
@@ -279,18 +237,13 @@ TEST_F(Eval, two_models_of_one_name_are_rejected) {
 
 // Two styles of which training takes say the opposite of test takes: no classifier can know them.
 TEST_F(Eval, figures_come_also_where_the_classifier_does_not_know_real_takes) {
-  std::string rows = read("takes.csv");
-  for (size_t at = 0; (at = rows.find('\n', at + 1)) != std::string::npos;) {
-    const size_t end = rows.find('\n', at + 1);
-    if (end == std::string::npos) break;
-    std::string line = rows.substr(at, end - at);
-    if (!line.ends_with("train")) continue;
-    const bool old = line.find(",old,") != std::string::npos;
-    const std::string from = old ? ",old," : ",proud,", to = old ? ",proud," : ",old,";
-    if (const size_t cell = line.find(from); cell != std::string::npos) {
-      line.replace(cell, from.size(), to);
-      rows.replace(at, end - at, line);
-    }
+  std::istringstream lines(read("takes.csv"));
+  std::string rows;
+  for (std::string line; std::getline(lines, line);) {
+    const size_t old = line.find(",old,"), proud = line.find(",proud,");
+    if (line.ends_with("train") && old != line.npos) line.replace(old, 5, ",proud,");
+    if (line.ends_with("train") && proud != line.npos) line.replace(proud, 7, ",old,");
+    rows += line + "\n";
   }
   write("exchanged.csv", rows);
   const Ran ran = must("eval exchanged.csv --model model.safetensors --report report --json");
@@ -299,6 +252,7 @@ TEST_F(Eval, figures_come_also_where_the_classifier_does_not_know_real_takes) {
   ASSERT_EQ(report["notes"].size(), 1u);
   const std::string note = report["notes"][0];
   EXPECT_TRUE(begins(note, "The style classifier recognises 0."));
+  EXPECT_TRUE(holds(note, "of the windows of real held-out takes, less than 0.950"));
   EXPECT_TRUE(holds(read("report/index.html"), note));
   const Json& seen = report["systems"]["model"]["seen"];
   for (const char* key :

@@ -1,14 +1,14 @@
 // What the tests of the page share: a server of the built page, and a browser that complains.
 
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { mkdir, readFile } from 'node:fs/promises';
-import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
-import { extname, join } from 'node:path';
+import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import playwright from 'playwright-core';
+import { launchChromium, serve } from '../serve.mjs';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 export const pageFolder = join(root, 'build', 'web');
@@ -27,6 +27,16 @@ export function workFolder() {
     at: (name) => join(folder, name),
     panache: (...given) => execFileSync(process.env.PANACHE_PROGRAM, given,
       { cwd: folder, encoding: 'utf8' }),
+    // Runs `panache view`: where it serves the page, or '' where this build does not.
+    view: async (t, ...given) => {
+      const server = spawn(process.env.PANACHE_PROGRAM, ['view', '--no-open', ...given],
+        { cwd: folder });
+      t.after(() => server.kill());
+      return new Promise((done) => {
+        server.stdout.once('data', (data) => done(String(data).trim()));
+        server.once('exit', () => done(''));
+      });
+    },
     remove: () => rmSync(folder, { recursive: true }),
   };
 }
@@ -34,25 +44,11 @@ export function workFolder() {
 // Milliseconds after which something is taken to hang, on a busy machine too.
 const kPatience = 180000;
 
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css' };
-
 /** The page at an address with a path of its own, as it may lie on any server. */
-async function serve() {
-  const server = createServer(async (request, response) => {
-    const path = new URL(request.url, 'http://localhost').pathname.replace(/^\/some\/path\//, '/');
-    try {
-      const body = await readFile(join(pageFolder, path === '/' ? 'index.html' : path));
-      response.setHeader('Content-Type', types[extname(path === '/' ? '.html' : path)] ??
-        'application/octet-stream');
-      if (path === '/') response.setHeader('Content-Type', 'text/html');
-      response.end(body);
-    } catch {
-      response.statusCode = 404;
-      response.end();
-    }
-  });
-  await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
-  return { server, address: `http://127.0.0.1:${server.address().port}/some/path/` };
+async function servePage() {
+  const { server, address } = await serve((path) =>
+    join(pageFolder, path.replace(/^\/some\/path\//, '/').replace(/\/$/, '/index.html')));
+  return { server, address: `${address}some/path/` };
 }
 
 // Sixty frames for each second of the motion, however long they take, as with a graphics card.
@@ -74,6 +70,18 @@ function graphicsCard() {
   })(WebGL2RenderingContext.prototype.getExtension);
 }
 
+// To draw without a graphics card takes most of the time of a frame, and nobody looks: of so many
+// frames one is drawn. What draws at once does so still.
+function drawOneOf(count) {
+  const { stage } = window.page;
+  if (!stage) return;
+  const { draw } = stage;
+  let frame = 0;
+  stage.draw = (seconds) => {
+    if (seconds === 0 || ++frame % count === 0) draw.call(stage, seconds);
+  };
+}
+
 /** Debian's Firefox instead of its Chromium, over WebDriver BiDi. */
 export const isFirefox = process.env.PANACHE_BROWSER === 'firefox';
 
@@ -89,22 +97,20 @@ const launch = () => (isFirefox ? playwright._bidiFirefox.launch({
   executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr', headless: false,
   env: { ...process.env, LIBGL_ALWAYS_SOFTWARE: '1' },
   firefoxUserPrefs: { 'webgl.force-enabled': true },
-}) : playwright.chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-}));
+}) : launchChromium());
 
 /** Starts both; close() ends them. open() gives a tab in which the page runs. */
 export async function start() {
-  const { server, address } = await serve();
+  const { server, address } = await servePage();
   const browser = await launch();
   await mkdir(pictures, { recursive: true });
   const complaints = [], requests = [];
 
   // Without a hash as a visitor sees it first; most tests want a neutral start.
   async function open(hash = 'neutral', options = {}) {
-    // `route`: what becomes of some requests; the page may then not get ready, or fail.
-    const { url = address, steady, card, route, fails, ...look } = options;
+    // `route`: what becomes of some requests; the page may then not get ready, or fail. `every`: of
+    // that many frames one is drawn.
+    const { url = address, steady, card, route, fails, every = 5, ...look } = options;
     const tab = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...look });
     tab.setDefaultTimeout(kPatience);
     if (steady) await tab.addInitScript(steadyFrames);
@@ -121,6 +127,7 @@ export async function start() {
     await tab.goto(url + (hash ? `#${hash}` : ''));
     if (route) return tab;
     await tab.waitForFunction(() => window.page?.ready && window.page.frames > 2);
+    await tab.evaluate(drawOneOf, every);
     return tab;
   }
   /** A page of somebody else. */
@@ -214,10 +221,11 @@ export async function doubleClick(tab, x, y) {
     .dispatchEvent(new MouseEvent('dblclick', { bubbles: true })), [x, y]);
 }
 
-/** Waits until the page has drawn some more frames. */
+/** Waits until the page has made some more frames, and draws the last one. */
 export async function frames(tab, count = 3) {
   const begin = await tab.evaluate(() => window.page.frames);
   await tab.waitForFunction((until) => window.page.frames >= until, begin + count);
+  await tab.evaluate(() => window.page.stage?.draw(0));
 }
 
 /** Where the styled body is, and how each of its parts is turned. */

@@ -1,7 +1,5 @@
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
 import { readFileSync, statSync, truncateSync, writeFileSync } from 'node:fs';
-import { request } from 'node:http';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
@@ -9,8 +7,7 @@ import {
   chooseSave, download, drop as dropFiles, frames, models, setStyle, start, unfold, workFolder,
 } from './browser.mjs';
 
-const program = process.env.PANACHE_PROGRAM;
-const { folder, at, panache, remove } = workFolder();
+const { at, panache, remove } = workFolder();
 
 let site, tab;
 before(async () => {
@@ -391,27 +388,3 @@ test('the walk itself is saved as it was steered', async () => {
   assert.match(panache('info', await save('BVH', '.bvh')), /joints  21, of which/);
 });
 
-test('panache view serves the page to this machine alone, with the file open in it', async (t) => {
-  await tab.close();  // Two pages that draw without a graphics card take each other's time.
-  const server = spawn(program, ['view', '--no-open', 'walk.bvh'], { cwd: folder });
-  t.after(() => server.kill());
-  const said = await new Promise((done) => {
-    server.stdout.once('data', (data) => done(String(data)));
-    server.once('exit', () => done(''));
-  });
-  if (said === '') return t.skip('this build has no server for the page');
-  assert.match(said, /^http:\/\/127\.0\.0\.1:\d+\/\?open=walk\.bvh\n$/);
-  const served = await site.open('neutral', { url: said.trim() });
-  await served.waitForFunction(() => window.page.source.file?.name === 'walk.bvh');
-  assert.ok(await served.evaluate(() => window.crossOriginIsolated));
-  await served.close();
-
-  // Nothing of another name that leads to this machine, and nothing outside of the page's folder.
-  const ask = (path, host) => new Promise((done, fail) => request(
-    { host: '127.0.0.1', port: new URL(said).port, path, headers: host ? { Host: host } : {} },
-    (answer) => done(answer.resume().statusCode)).on('error', fail).end());
-  assert.equal(await ask('/'), 200);
-  assert.equal(await ask('/', 'example.org'), 403);
-  assert.equal(await ask('/../CMakeCache.txt'), 404);
-  assert.equal(await ask('/%2e%2e/CMakeCache.txt'), 404);
-});

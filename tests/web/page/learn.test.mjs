@@ -1,5 +1,4 @@
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -8,9 +7,8 @@ import {
   download, drop, frames, listen, models, pictures, start, told, unfold, workFolder,
 } from './browser.mjs';
 
-const program = process.env.PANACHE_PROGRAM;
 const model = join(models, 'panache-int8.safetensors');
-const { folder, at, panache, remove } = workFolder();
+const { at, panache, view, remove } = workFolder();
 const file = (name) => [name, readFileSync(at(name))];
 
 let site, tab;
@@ -192,15 +190,10 @@ test('a model opens by drop, and panache view --model shows the page with it', a
   await tab.waitForFunction(() => !document.querySelector('#style-mix'));
   assert.ok((await styles()).includes('lumbering') && !(await styles()).includes('mix'));
   await tab.close();
-  const server = spawn(program, ['view', '--no-open', '--model', 'mine.safetensors'], { cwd: folder });
-  t.after(() => server.kill());
-  const said = await new Promise((done) => {
-    server.stdout.once('data', (data) => done(String(data)));
-    server.once('exit', () => done(''));
-  });
-  if (said === '') return t.skip('this build has no server for the page');
-  assert.match(said, /^http:\/\/127\.0\.0\.1:\d+\/\?model=mine\.safetensors\n$/);
-  const served = await site.open('lumbering=1', { url: said.trim() });
+  const url = await view(t, '--model', 'mine.safetensors');
+  if (!url) return t.skip('this build has no server for the page');
+  assert.match(url, /^http:\/\/127\.0\.0\.1:\d+\/\?model=mine\.safetensors$/);
+  const served = await site.open('lumbering=1', { url });
   assert.equal(await served.locator('#style-lumbering').inputValue(), '1');
   await served.close();
 });

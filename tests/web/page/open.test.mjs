@@ -11,11 +11,35 @@ let site;
 before(async () => (site = await start()));
 after(() => site.close());
 
-test('the page moves after opening, from any path', async () => {
-  const tab = await site.open();
+/** The page draws on while a slider is dragged. */
+async function draggedSlider(tab) {
+  await setStyle(tab, 'old', '0');
+  await tab.locator('#style-old').scrollIntoViewIfNeeded();  // Outside the window nothing is dragged.
+  const box = await tab.locator('#style-old').boundingBox();
+  const moveTo = (share) => tab.mouse.move(box.x + 20 + share * (box.width - 40),
+    box.y + box.height / 2);
+  const seen = new Set();
+  await moveTo(0);
+  await tab.mouse.down();
+  for (let i = 1; i <= 20; ++i) {
+    await moveTo(i / 20);
+    await frames(tab, 2);
+    seen.add(await tab.evaluate(() => window.page.store.settings.styles.old));
+  }
+  await tab.mouse.up();
+  // Each place of the mouse is another strength, in the frames that are drawn before the next.
+  assert.ok(seen.size > 15, `${[...seen]}`);
+}
+
+test('the page moves after opening, from any path, with the bits of the library', async () => {
+  const tab = await site.open('neutral', { every: 1 });
   const then = await styledParts(tab);
   await frames(tab, 5);
   assert.notDeepEqual(await styledParts(tab), then);
+  // Three hundred styled frames.
+  const here = await tab.evaluate(() => window.page.panache.goldenHash());
+  for (const hash of nativeHashes()) assert.equal(here, hash);
+  await draggedSlider(tab);
   await tab.close();
 });
 
@@ -81,13 +105,6 @@ test('a visitor first sees a neutral walk and an old one, side by side, and what
   await tab.close();
 });
 
-test('three hundred styled frames have the same bits in the browser and natively', async () => {
-  const tab = await site.open();
-  const here = await tab.evaluate(() => window.page.panache.goldenHash());
-  for (const hash of nativeHashes()) assert.equal(here, hash);
-  await tab.close();
-});
-
 // What comes late is not counted: src/late.ts.
 test('the first load is under 1.22 MB compressed, model included', async () => {
   const late = ['gif.js', 'neutral.safetensors', 'remover-int8.safetensors', 'zip.js'];
@@ -107,27 +124,6 @@ test('the first load is under 1.22 MB compressed, model included', async () => {
     assert.ok(!site.requests.some((request) => request.startsWith('http') &&
       request.endsWith(`/${name}`)), `${name} is asked for`);
   }
-});
-
-test('the page draws on while a slider is dragged', async () => {
-  const tab = await site.open();
-  await setStyle(tab, 'old', '0');
-  await tab.locator('#style-old').scrollIntoViewIfNeeded();  // Outside the window nothing is dragged.
-  const box = await tab.locator('#style-old').boundingBox();
-  const moveTo = (share) => tab.mouse.move(box.x + 20 + share * (box.width - 40),
-    box.y + box.height / 2);
-  const seen = new Set();
-  await moveTo(0);
-  await tab.mouse.down();
-  for (let i = 1; i <= 20; ++i) {
-    await moveTo(i / 20);
-    await frames(tab, 2);
-    seen.add(await tab.evaluate(() => window.page.store.settings.styles.old));
-  }
-  await tab.mouse.up();
-  // Each place of the mouse is another strength, in the frames that are drawn before the next.
-  assert.ok(seen.size > 15, `${[...seen]}`);
-  await tab.close();
 });
 
 test('no request leaves the page\'s own origin', () => {

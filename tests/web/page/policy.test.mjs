@@ -1,19 +1,20 @@
 // Content security policies: the npm package in a page of somebody else, and our own page as
 // `panache view` serves it. Neither needs unsafe-eval.
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
-import { mkdtemp, readFile, rm } from 'node:fs/promises';
-import { createServer } from 'node:http';
-import { tmpdir } from 'node:os';
-import { extname, join } from 'node:path';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { frames, models, nativeHashes, start } from './browser.mjs';
+import { serve } from '../serve.mjs';
+import { frames, models, nativeHashes, start, workFolder } from './browser.mjs';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
+const { panache, view, remove } = workFolder();
 let site;
 before(async () => { site = await start(); });
-after(() => site.close());
+after(async () => {
+  await site.close();
+  remove();
+});
 
 // What a strict page allows: its own scripts, and to compile WebAssembly, which is not eval.
 const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'";
@@ -38,31 +39,17 @@ try {
   window.done = { error: String(error) };
 }`;
 
-async function embed() {
-  const types = { '.js': 'text/javascript', '.html': 'text/html' };
-  const server = createServer(async (request, response) => {
-    const path = request.url;
-    try {
-      const body = path === '/' ? '<!doctype html><script type="module" src="/main.js"></script>'
-        : path === '/main.js' ? script
-        : path.startsWith('/npm/') ? await readFile(join(root, 'build', path))
-        : path === '/panache.wasm' ? await readFile(join(root, 'build/wasm/panache.wasm'))
-        : await readFile(join(models, path));
-      response.setHeader('Content-Type', types[extname(path) || '.html'] ?? 'application/octet-stream');
-      response.setHeader('Content-Security-Policy', policy);
-      response.end(body);
-    } catch {
-      response.statusCode = 404;
-      response.end();
-    }
-  });
-  await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
-  return server;
-}
+/** The page of somebody else. */
+const embed = () => serve((path) => (
+  path === '/' ? Buffer.from('<!doctype html><script type="module" src="/main.js"></script>')
+    : path === '/main.js' ? Buffer.from(script)
+    : path.startsWith('/npm/') ? join(root, 'build', path)
+    : path === '/panache.wasm' ? join(root, 'build/wasm/panache.wasm') : join(models, path)),
+{ 'Content-Security-Policy': policy });
 
 test('a page that embeds the npm package needs no unsafe-eval', async () => {
-  const server = await embed();
-  const tab = await site.plain(`http://127.0.0.1:${server.address().port}/`);
+  const { server, address } = await embed();
+  const tab = await site.plain(address);
   await tab.waitForFunction(() => window.done);
   const done = await tab.evaluate(() => window.done);
   assert.equal(done.error, undefined);
@@ -81,26 +68,19 @@ test('a page that embeds the npm package needs no unsafe-eval', async () => {
   server.close();
 });
 
-test('the page runs under the policy that panache view sends, with a file open in it', async () => {
-  const folder = await mkdtemp(join(tmpdir(), 'panache-'));
-  const walk = join(folder, 'walk.bvh');
-  execFileSync(process.env.PANACHE_PROGRAM, ['walker', '-o', walk, '--seconds', '2']);
-  const program = spawn(process.env.PANACHE_PROGRAM, ['view', '--no-open', walk]);
-  try {
-    const address = await new Promise((resolve, reject) => {
-      program.stdout.once('data', (text) => resolve(text.toString().trim()));
-      program.once('exit', () => reject(new Error('panache view ended')));
-    });
-    const answer = await fetch(address);
-    assert.match(answer.headers.get('content-security-policy'), /default-src 'none'/);
-    assert.doesNotMatch(answer.headers.get('content-security-policy'), /'unsafe-eval'/);
-    // Complaints of the browser fail the test at its end.
-    const tab = await site.open('old=1', { url: address });
-    await tab.waitForFunction(() => document.querySelector('#file-name').textContent.includes('walk.bvh'));
-    await frames(tab, 5);
-    await tab.close();
-  } finally {
-    program.kill();
-    await rm(folder, { recursive: true });
-  }
+test('the page runs under the policy of panache view, with a file open in it', async (t) => {
+  panache('walker', '-o', 'walk.bvh', '--seconds', '2');
+  const address = await view(t, 'walk.bvh');
+  if (!address) return t.skip('this build has no server for the page');
+  assert.match(address, /^http:\/\/127\.0\.0\.1:\d+\/\?open=walk\.bvh$/);
+  const answer = await fetch(address);
+  assert.match(answer.headers.get('content-security-policy'), /default-src 'none'/);
+  assert.doesNotMatch(answer.headers.get('content-security-policy'), /'unsafe-eval'/);
+  // Complaints of the browser fail the test at its end.
+  const tab = await site.open('old=1', { url: address });
+  await tab.waitForFunction(() => window.page.source.file?.name === 'walk.bvh');
+  assert.match(await tab.locator('#file-name').textContent(), /walk\.bvh/);
+  assert.ok(await tab.evaluate(() => window.crossOriginIsolated));
+  await frames(tab, 5);
+  await tab.close();
 });
